@@ -27,6 +27,7 @@ Document themes_document(const StoreMetadata& metadata) {
                       {"vertices", theme.vertices},
                       {"segments", theme.segments},
                       {"fields", std::move(fields)}});
+    if (theme.is_raised()) themes.back()["left_out"] = theme.left_out_count();
     if (theme.wall_offset) themes.back()["wall_offset_m"] = *theme.wall_offset;
   }
   return themes;
@@ -37,8 +38,9 @@ std::string themes_table(const StoreMetadata& metadata) {
   std::string table;
   for (const ThemeInfo& theme : metadata.themes) {
     table +=
-        fmt::format("{:<12}{} ({}{}): {}, {}, {}{}\n", table.empty() ? "themes" : "", theme.name, name_of(theme.kind),
+        fmt::format("{:<12}{} ({}{}): {}{}, {}, {}{}\n", table.empty() ? "themes" : "", theme.name, name_of(theme.kind),
                     is_terrain(theme.kind) ? ", part of the terrain" : "", counted(theme.features, "feature"),
+                    theme.left_out.empty() ? "" : fmt::format(", {} left out", grouped(theme.left_out_count())),
                     counted(theme.vertices, "vertex", "vertices"), counted(theme.segments, "segment"),
                     theme.fields.empty() ? "" : ", " + counted(theme.fields.size(), "field"));
   }

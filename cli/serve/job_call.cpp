@@ -18,11 +18,15 @@ namespace itin::cli {
 
 namespace {
 
-constexpr std::pair<const char*, std::unique_ptr<Verb> (*)()> kJobVerbs[] = {
-    {"viewshed", make_viewshed_verb}, {"visibility", make_visibility_verb},
-    {"tin", make_tin_verb},           {"profile", make_profile_verb},
-    {"los", make_los_verb},           {"ztv", make_ztv_verb},
-    {"site", make_site_verb},         {"premises", make_premises_verb}};
+constexpr std::pair<const char*, std::unique_ptr<Verb> (*)()> kJobVerbs[] = {{"viewshed", make_viewshed_verb},
+                                                                             {"visibility", make_visibility_verb},
+                                                                             {"tin", make_tin_verb},
+                                                                             {"profile", make_profile_verb},
+                                                                             {"los", make_los_verb},
+                                                                             {"ztv", make_ztv_verb},
+                                                                             {"site", make_site_verb},
+                                                                             {"premises", make_premises_verb},
+                                                                             {"dwellings", make_dwellings_verb}};
 
 std::unique_ptr<Verb> make_job_verb(const std::string& name) {
   for (const auto& [known, make] : kJobVerbs)

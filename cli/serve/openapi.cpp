@@ -13,6 +13,7 @@ struct GetPath {
   const char* summary;
   const char* type;
   std::initializer_list<const char*> required_options;  ///< those of the verb, where the query has its options
+  bool has_more_options = true;                         ///< whether the query may have the verb's other options
 };
 
 constexpr const char* kJson = "application/json";
@@ -62,7 +63,7 @@ Document operation(const char* summary, Document parameters, Document answers) {
 Document get_operation(const GetPath& path) {
   Document parameters = path_parameters(path.path);
   for (const char* option : path.required_options) parameters.push_back(parameter("query", option, "string"));
-  if (path.required_options.size() > 0) parameters.push_back(options_parameter());
+  if (path.required_options.size() > 0 && path.has_more_options) parameters.push_back(options_parameter());
   return operation(path.summary, std::move(parameters), {{"200", answer_of(path.summary, path.type)}});
 }
 
@@ -109,6 +110,7 @@ Document openapi_document() {
   const GetPath kGets[] = {
       {"/api/v1/info", "What the store holds", kJson, {}},
       {"/api/v1/los", "Whether two points see each other, and the profile between them", kJson, {"from", "to"}},
+      {"/api/v1/place", "Where a place is, and the ground there", kJson, {"at"}, false},
       {"/api/v1/profile", "The surface along a line", kJson, {"from", "to"}},
       {"/tin.glb", "The triangulation of a window as glTF", "model/gltf-binary", {"bbox"}},
       {"/tiles/heights/{z}/{x}/{y}", "Heights of the ground as float32", "application/octet-stream", {}},

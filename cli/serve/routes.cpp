@@ -16,6 +16,7 @@
 #include "serve/los_answer.hpp"
 #include "serve/openapi.hpp"
 #include "serve/page_answer.hpp"
+#include "serve/place_answer.hpp"
 #include "serve/served_info.hpp"
 
 namespace itin::cli {
@@ -114,6 +115,7 @@ HttpResponse Routes::get_of_store(const HttpRequest& request, bool may_be_kept) 
   if (path == "/tin.glb") return window(request.query);
   if (path == "/api/v1/info") return json_answer(served_info(served_, grid_));
   if (path == "/api/v1/los") return json_answer(los_answer(served_, arguments_of(request.query)));
+  if (path == "/api/v1/place") return json_answer(place_answer(served_, request.query, progress_));
   if (path == "/api/v1/profile") return json_answer(profile_answer(served_, arguments_of(request.query), progress_));
   return not_found(path);
 }

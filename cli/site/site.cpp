@@ -127,11 +127,22 @@ class SiteVerb final : public Verb {
     warn_of_grid(store.metadata(), warnings);
   }
 
+  /// Adds the tables that depend on what the demand was read from, of which the options do not tell.
+  void complete_outputs(const viewshed::SitePlan& site) {
+    for (const viewshed::PlanFile& file : viewshed::site_plan_files(options_.directory, site.request)) {
+      const auto same = [&](const viewshed::PlanFile& known) { return known.path == file.path; };
+      if (std::any_of(outputs_.begin(), outputs_.end(), same)) continue;
+      policy_.claim(file.path);
+      outputs_.push_back(file);
+    }
+  }
+
   /// Writes the outputs and tells about them.
   void write(const Store& store, const viewshed::SitePlan& site, Result& result, Progress& progress) {
     warn(store, site, result.warnings);
     result.document = site_document(site, store.metadata());
     if (site.leaves_open) result.document["undecided"]["decided_by"] = kDecidesMissingGround;
+    complete_outputs(site);
     result.document["outputs"] = viewshed::outputs_document(outputs_);
     write_site_plan(options_.directory, site, store, progress,
                     {.metadata = {{"itin", ITIN_VERSION}, {"parameters", json_text(parameters())}},

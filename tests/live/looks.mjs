@@ -110,3 +110,60 @@ for (const dark of [false, true]) {
     await closed(page);
   });
 }
+
+test("the page tells how many buildings the import left out", async () => {
+  const page = await openPage(world.browser, world.town.address);
+  assert.match(await text(page, "#about"), /buildings79 features; 5 more do not stand, as the import left them out/);
+  await closed(page);
+});
+
+test("contours have their heights", async () => {
+  const page = await openPage(world.browser, world.hills.address);
+  await page.waitForNetworkIdle();
+  await page.$eval("#contours", (input) => input.click());
+  await page.waitForNetworkIdle();
+  await keepPicture(page, "contours");
+  await closed(page);
+});
+
+/** Whether something is seen whole on the map, and nothing lies over its middle. */
+const isInTheOpen = (page, selector) =>
+  page.$eval(selector, (found) => {
+    const [map, own] = [document.querySelector("#map"), found].map((some) => some.getBoundingClientRect());
+    const top = document.elementFromPoint(own.x + own.width / 2, own.y + own.height / 2);
+    return (
+      own.top >= map.top && own.bottom <= map.bottom && own.left >= map.left && own.right <= map.right && top === found
+    );
+  });
+
+test("on a phone a place that is tapped stays in view, whatever panel opens", async () => {
+  const page = await openPage(world.browser, world.hills.address, { width: 390 });
+  await page.touchscreen.tap(195, 330);
+  await settled(page);
+  for (const y of [200, 480, 560]) {
+    await page.touchscreen.tap(120, y);
+    await page.waitForSelector("#line[aria-busy=false]:not([hidden])");
+    await until(() => isInTheOpen(page, ".target"), `the place tapped at ${y} is in the open`);
+    await keepPicture(page, `phone-line-${y}`);
+    await page.$eval("#line-close", (button) => button.click());
+    await page.waitForSelector("#line[hidden]");
+  }
+  await page.touchscreen.tap(120, 480);
+  await page.waitForSelector("#line[aria-busy=false]:not([hidden])");
+  await page.$eval("#sheet-button", (button) => button.click());
+  await until(() => isInTheOpen(page, ".target"), "above the sheet");
+  await keepPicture(page, "phone-line-sheet");
+  await page.$eval("#sheet-button", (button) => button.click());
+
+  await page.$eval("#tasks input[value=turbines]", (input) => input.click());
+  await page.touchscreen.tap(195, 330);
+  await page.waitForSelector(".marker.turbine");
+  await page.touchscreen.tap(120, 480);
+  await page.waitForSelector("#wireline:not([hidden])");
+  await until(() => isInTheOpen(page, ".eye"), "the viewpoint is above the wireline");
+  await until(() => page.$eval("#wireline-picture", (image) => image.naturalWidth > 0), "the wireline is drawn");
+  assert.ok(await isInTheOpen(page, ".eye"));
+  await keepPicture(page, "phone-wireline");
+  assert.equal(await page.evaluate(() => document.documentElement.scrollWidth), 390);
+  await closed(page);
+});

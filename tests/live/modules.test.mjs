@@ -11,6 +11,7 @@ const { Scene } = await module("state/scene");
 const { firstState } = await module("state/first_state");
 const { relief } = await module("map/shade");
 const { contourInterval, contourPieces } = await module("map/contours");
+const { contourLabels, joined } = await module("map/contour_labels");
 const { roundedPlace } = await module("map/dragging");
 
 test("classes of values have limits, names and the best first", () => {
@@ -135,4 +136,65 @@ test("contours of a plane are straight, evenly spaced, and end at the hole", () 
   assert.equal(contourInterval(50, 50), 50);
   assert.equal(contourInterval(1, 1), 1);
   assert.equal(contourInterval(1, 50), 10);
+});
+
+/** The contours of a tile whose heights are a function of the place, in pixels. */
+function contoursOf(size, interval, height) {
+  const width = size + 2;
+  const heights = Float32Array.from({ length: width * width }, (_, k) =>
+    height((k % width) - 0.5, Math.floor(k / width) - 0.5),
+  );
+  return contourPieces({ heights, width }, size, interval);
+}
+
+test("pieces of a contour are joined to lines and rings, each once", () => {
+  const pieces = contoursOf(64, 10, (x, y) => 100 - Math.hypot(x - 20, y - 30));
+  for (const level of [90, 80, 70, 60]) {
+    const some = pieces.filter((piece) => piece.level === level);
+    const lines = joined(some);
+    assert.equal(
+      lines.reduce((sum, line) => sum + line.length - 1, 0),
+      some.length,
+    );
+    const [ring] = lines;
+    if (level !== 90) continue;
+    assert.equal(lines.length, 1);
+    assert.ok(Math.hypot(ring[0].x - ring.at(-1).x, ring[0].y - ring.at(-1).y) < 0.01);
+  }
+});
+
+test("labels of contours are upright, along heavier lines, apart from each other and within their tile", () => {
+  const size = 256;
+  const slope = (x, y) => 200 + 0.3 * x + 0.5 * y + 12 * Math.sin(x / 40);
+  for (const scale of [1, 2, 4]) {
+    const labels = contourLabels(contoursOf(size, 5, slope), size, 5, scale);
+    assert.ok(labels.length >= 2 && labels.length <= 6 * scale ** 2, `${labels.length} labels`);
+    labels.forEach(({ text, x, y, angle }, i) => {
+      assert.equal(Number(text) % 25, 0);
+      assert.ok(angle > -Math.PI / 2 && angle <= Math.PI / 2);
+      assert.ok(Math.min(x, y, size - x, size - y) > 5 / scale);
+      assert.ok(Math.abs(slope(x, y) - Number(text)) < 2, `${text} at ${slope(x, y)}`);
+      // The line's direction is across the slope.
+      const across = Math.atan2(-(0.3 + (12 / 40) * Math.cos(x / 40)), 0.5);
+      assert.ok(Math.abs(Math.tan(angle) - Math.tan(across)) < 0.5);
+      for (const other of labels.slice(i + 1)) assert.ok(Math.hypot(other.x - x, other.y - y) >= 130 / scale);
+    });
+  }
+  // Where no heavier line has room, others have their heights.
+  const [low] = contourLabels(
+    contoursOf(size, 0.5, (x) => x / 400 - 0.9),
+    size,
+    0.5,
+    1,
+  );
+  assert.equal(low.text, "−0.5");
+  assert.deepEqual(
+    contourLabels(
+      contoursOf(size, 10, () => 5),
+      size,
+      10,
+      1,
+    ),
+    [],
+  );
 });

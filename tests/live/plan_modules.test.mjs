@@ -11,6 +11,7 @@ const { Scene } = await module("state/scene");
 const { firstState } = await module("state/first_state");
 const { areaOf, isMoved, moveSite, polygonText, putBack, sitesOf } = await module("state/plan");
 const { addTurbine, commonSize, removeTurbine, resizeTurbines, rotorOf, takeLayout } = await module("state/turbines");
+const { cellsIn, encloses, servedOf, MOST_CELLS_SERVED } = await module("state/served");
 const { TIPS, HUBS, wantedOf } = await module("seen/viewers");
 const { placesIn, turbineTable } = await module("plan/tables");
 const { jobOptions } = await module("plan/job_options");
@@ -160,4 +161,39 @@ test("an eye looks to the middle of what it sees", () => {
   assert.equal(middleSeen(cells), null);
   cells.codes[5] = cells.codes[7] = 1;
   assert.deepEqual(middleSeen(cells), { x: 45, y: 75 });
+});
+
+test("what is to be served is cells of the map whose middles lie in the area", () => {
+  const triangle = [100, 100, 400, 100, 100, 400];
+  const cells = cellsIn(triangle, 20);
+  const all = new Set();
+  for (let x = 90; x < 420; x += 20) {
+    for (let y = 90; y < 420; y += 20) if (encloses(triangle, x, y)) all.add(`${x},${y}`);
+  }
+  assert.deepEqual(new Set(cells.map(({ x, y }) => `${x},${y}`)), all);
+  assert.ok(cells.every(({ x, y }) => x > 100 && y > 100 && x + y < 500 && x % 20 === 10 && y % 20 === 10));
+  assert.throws(
+    () => cellsIn([0, 0, 1e5, 0, 1e5, 1e5, 0, 1e5], 20),
+    /has more than 100000 cells: take a cell of 316\.\d m/,
+  );
+  assert.equal(cellsIn([0, 0, 1, 0, 1, 1], 20).length, 0);
+  const least = 1e5 / Math.sqrt(MOST_CELLS_SERVED);
+  assert.ok(cellsIn([0, 0, 1e5, 0, 1e5, 1e5, 0, 1e5], Math.ceil(least)).length <= MOST_CELLS_SERVED);
+});
+
+test("the address has what is to be served", () => {
+  for (const served of [
+    { kind: "view" },
+    { kind: "premises" },
+    { kind: "reach" },
+    { kind: "area", ring: [1, 2, 3, 4, 5, 7] },
+  ]) {
+    const state = { ...firstState(INFO), task: "sites", served };
+    assert.deepEqual(readAddress(addressOf(state), firstState(INFO)).served, served);
+  }
+  // A file is the page's own, and an area that is not drawn is nothing yet.
+  for (const kind of ["places", "area"]) {
+    const state = { ...firstState(INFO), served: servedOf(kind) };
+    assert.deepEqual(readAddress(addressOf(state), firstState(INFO)).served, { kind: "reach" });
+  }
 });

@@ -7,6 +7,17 @@ import { test } from "node:test";
 import { closed, downloaded, mastAt, pageWithMast, setField, settled, text, until, value, MIDDLE } from "./planner.mjs";
 import { keepPicture, openPage, runLine, serve, world } from "./served_map.mjs";
 
+/** The page's address, once it is that of what the map shows. */
+async function stillAddress(page) {
+  let last = "";
+  return until(async () => {
+    const before = last;
+    last = page.url();
+    await new Promise((resume) => setTimeout(resume, 500));
+    return before === last && last === page.url() && last;
+  }, "the address stands still");
+}
+
 test("a reload from the address shows the same, and the key is not in it", async () => {
   const page = await pageWithMast();
   await page.mouse.click(MIDDLE.x + 90, MIDDLE.y - 60);
@@ -14,7 +25,7 @@ test("a reload from the address shows the same, and the key is not in it", async
   await settled(page);
   await page.waitForFunction(() => location.hash.includes("effective-earth=4/3") && location.hash.includes("&target="));
   await page.waitForSelector("#line[aria-busy=false]");
-  const address = page.url();
+  const address = await stillAddress(page);
   const mast = await mastAt(page);
   const said = await text(page, "#line-verdict");
   assert.doesNotMatch(address, /key=/);

@@ -34,6 +34,11 @@ const load = async (page, name, text_) => {
   await (await page.$("#candidates")).uploadFile(join(world.folder, name));
 };
 
+async function loadCandidates(page) {
+  await load(page, "places.csv", CANDIDATES);
+  await until(async () => /^4 candidates of places\.csv/.test(await text(page, "#search-said")), "candidates are told");
+}
+
 async function choose(page, count) {
   await page.$eval("#site-count", (input, to) => (input.value = to), String(count));
   await page.$eval("#choose", (button) => button.click());
@@ -44,12 +49,13 @@ async function choose(page, count) {
 
 test("sites are chosen among places of a file; what each adds, and what a swap costs, is what the command line says", async () => {
   const page = await pageOfSites();
-  await load(page, "places.csv", CANDIDATES);
-  await until(async () => /^4 candidates of places\.csv/.test(await text(page, "#search-said")), "candidates are told");
+  await loadCandidates(page);
   await choose(page, 2);
   const { chosen, value, served_percent: percent } = chosenOf("--count 2 --name-field name");
   const km2 = (cells) => `${((cells * 200 ** 2) / 1e6).toFixed((cells * 200 ** 2) / 1e6 < 100 ? 1 : 0)} km²`;
-  assert.ok((await text(page, "#plan-sum")).includes(`serve ${km2(value)}, ${percent.toFixed(1)} %`));
+  assert.ok(
+    (await text(page, "#plan-sum")).includes(`serve ${km2(value)}: ${percent.toFixed(1)} % of what lies within 10 km`),
+  );
   const rows = await page.$$eval("#plan-sites .site-gain", (all) => all.map(({ textContent }) => textContent));
   assert.deepEqual(
     rows,
@@ -97,6 +103,89 @@ test("sites are chosen among places of a file; what each adds, and what a swap c
   await page.waitForFunction(() => !document.querySelector(".marker.moved"));
   await page.$eval("#plan-keep", (button) => button.click());
   await page.waitForFunction(() => document.querySelectorAll(".mast").length === 2);
+  await closed(page);
+});
+
+/** Says what is to be served, and waits until the page says it. */
+async function serve(page, kind, words) {
+  await page.select("#served", kind);
+  await until(async () => words.test(await text(page, "#served-said")), `${words}`);
+}
+
+test("sites serve places of a file, and the result says of which", async () => {
+  const page = await pageOfSites();
+  assert.match(await text(page, "#served-said"), /^To be served: all ground within 10 km of a candidate\.$/);
+  await loadCandidates(page);
+  await serve(page, "places", /^Load the households/);
+  await page.$eval("#choose", (button) => button.click());
+  await until(async () => /^Load the places/.test(await text(page, "#choice-run .problem")), "places are asked for");
+  const homes = Array.from({ length: 40 }, (_, i) => `${312000 + 250 * (i % 8)},${184000 + 900 * Math.floor(i / 8)}`);
+  writeFileSync(join(world.folder, "homes.csv"), `x,y\n${homes.join("\n")}\n`);
+  await (await page.$("#served-places")).uploadFile(join(world.folder, "homes.csv"));
+  await until(async () => /the 40 places of homes\.csv/.test(await text(page, "#served-said")), "they are told");
+  await choose(page, 2);
+  const { value } = chosenOf("--count 2 --name-field name --demand homes.csv");
+  const sum = await text(page, "#plan-sum");
+  assert.ok(
+    sum.includes(`${value} places: ${((100 * value) / 40).toFixed(1)} % of the places of homes.csv (40 places)`),
+    sum,
+  );
+  assert.match(sum, /2 were asked for: one more would add nothing\.$/);
+  assert.match(await text(page, "#choice-run .run-files"), /demand\.csv a row for each point/);
+  await keepPicture(page, "served-places");
+  await page.focus(".marker");
+  for (let i = 0; i < 3; ++i) await page.keyboard.press("ArrowRight");
+  await until(
+    async () => /^Now about \d+ places?: .* the choice\./.test(await text(page, "#plan-now")),
+    "a move is told",
+  );
+  await closed(page);
+});
+
+test("sites serve the ground in view or in an area that is drawn", async () => {
+  const page = await pageOfSites();
+  await loadCandidates(page);
+  await serve(page, "area", /^Draw the area/);
+  await page.$eval("#served-button", (button) => button.click());
+  for (const [x, y] of [
+    [-60, -80],
+    [60, -80],
+    [60, 40],
+    [-60, -80],
+  ]) {
+    await page.mouse.click(MIDDLE.x + x, MIDDLE.y + y);
+    await new Promise((resume) => setTimeout(resume, 300)); // sooner, two clicks are a double one
+  }
+  await until(async () => /km² of ground in the area drawn/.test(await text(page, "#served-said")), "the area is told");
+  // It is not the area where masts may stand.
+  assert.match(await text(page, "#search-said"), /^4 candidates of/);
+  await page.waitForFunction(() => location.hash.includes("&served="));
+  await choose(page, 2);
+  assert.match(await text(page, "#plan-sum"), /serves? [\d.]+ km²: [\d.]+ % of the area drawn \([\d.]+ km²\)/);
+  await keepPicture(page, "served-area");
+
+  // The choice in the page and what the map shows of it are one number.
+  await page.focus(".marker");
+  for (const key of ["ArrowRight", "ArrowLeft"]) await page.keyboard.press(key);
+  await settledViews(page);
+  await drawn(page);
+  await serve(page, "view", /^To be served: [\d.\s]+ km² of ground, all that is in view/);
+  await choose(page, 1);
+  assert.match(await text(page, "#plan-sum"), /^The site serves [\d.\s]+ km²: [\d.]+ % of the ground that was in view/);
+  await closed(page);
+});
+
+test("sites serve buildings", async () => {
+  const page = await openPage(world.browser, world.town.address);
+  await page.$eval("#tasks input[value=sites]", (input) => input.click());
+  await page.$eval("#area-in-view", (button) => button.click());
+  await setField(page, "#site-spacing", "200");
+  await serve(page, "premises", /^To be served: the buildings within 200 m of a candidate/);
+  await choose(page, 1);
+  assert.match(
+    await text(page, "#plan-sum"),
+    /^The site serves \d+ buildings: [\d.]+ % of the buildings within reach \(\d+ buildings\)/,
+  );
   await closed(page);
 });
 
@@ -159,6 +248,10 @@ test("premises are surveyed from the masts on the map", async () => {
   );
   assert.ok((await text(page, "#premises-sum")).startsWith(`${premises.served} of ${premises.all} buildings served`));
   assert.match(await text(page, "#premises-run .run-files"), /premises\.csv/);
+  assert.match(
+    await text(page, "#premises-run .run-warnings"),
+    /5 buildings not counted: the import of theme 'buildings'/,
+  );
   await keepPicture(page, "premises");
   assert.deepEqual(await axeFindings(page), []);
   await closed(page);

@@ -128,3 +128,38 @@ test("files that hold no turbines are refused in one line, with the planner's ow
   await refused("picture.png", "png", /^picture\.png: choose a table/);
   await page.close();
 });
+
+test("dwellings near turbines are surveyed as the command line surveys them", async () => {
+  const page = await openPage(world.browser, world.town.address);
+  await page.$eval("#tasks input[value=turbines]", (input) => input.click());
+  writeFileSync(join(world.folder, "rotors.csv"), "name,x,y,hub_height,rotor_diameter\nA,321950,4297600,60,50\n");
+  await (await page.$("#layout")).uploadFile(join(world.folder, "rotors.csv"));
+  await page.waitForSelector(".marker.turbine");
+  await setField(page, "#dwelling-radius", "300");
+  await setField(page, "#flicker-year", "2027");
+  await setField(page, "#flicker-clock", "-5");
+  await page.$eval("#survey-dwellings", (button) => button.click());
+  const said = await until(() => text(page, "#dwellings-sum"), "dwellings are counted");
+  const options =
+    "--turbines rotors.csv --radius 300 --year 2027 --time-zone=-5 --observer-height 2 -o near --overwrite";
+  const { dwellings } = JSON.parse(itin(`dwellings town.itin ${options} --json`, world.folder));
+  assert.ok(said.startsWith(`${dwellings.all} dwellings: ${dwellings.see_a_tip} see a blade tip`), said);
+  assert.ok(said.includes(`Shadows flicker at ${dwellings.with_flicker} in the worst case of 2027`), said);
+  assert.match(await text(page, "#dwellings-run .run-files"), /dwellings\.csv/);
+  await page.$eval("#dwellings", (section) => section.scrollIntoView());
+  await keepPicture(page, "dwellings");
+  assert.deepEqual(await axeFindings(page), []);
+
+  await setField(page, "#flicker-year", "soon");
+  await page.$eval("#survey-dwellings", (button) => button.click());
+  const problem = await until(() => text(page, "#dwellings-run .problem"), "what is wrong is said");
+  assert.match(problem, /^“Year of flicker” 'soon'/);
+  page.troubles.length = 0; // the browser notes the answer 400
+  await closed(page);
+});
+
+test("a store without buildings offers no survey of dwellings", async () => {
+  const page = await openPage(world.browser, world.hills.address);
+  assert.equal(await page.$eval("#dwellings", (section) => section.hidden), true);
+  await closed(page);
+});

@@ -33,9 +33,12 @@ import { Readout } from "./panel/readout.js";
 import { makeResults } from "./panel/results.js";
 import { makeSheet } from "./panel/sheet.js";
 import { makeShowForm } from "./panel/show_form.js";
+import { makeUndecided } from "./panel/undecided.js";
 import { makeStatus } from "./panel/status.js";
+import { makeDwellingsSurvey } from "./plan/dwellings_survey.js";
 import { makePremisesSurvey } from "./plan/premises_survey.js";
 import { makeSearchForm } from "./plan/search_form.js";
+import { makeServedForm } from "./plan/served_form.js";
 import { makeSiteChoice } from "./plan/site_choice.js";
 import { makeReliefPanel } from "./relief/relief_panel.js";
 import { makeTasksForm, takeDrops } from "./plan/tasks_form.js";
@@ -47,7 +50,7 @@ function keepAddress(scene) {
   let waiting = 0;
   const kept = /** @type {(keyof import("./state/scene.js").SceneState)[]} */ ([
     ...["task", "masts", "selected", "show", "target", "options", "layers", "view"],
-    ...["turbines", "part", "viewpoint", "search"],
+    ...["turbines", "part", "viewpoint", "search", "served"],
   ]);
   scene.on(kept, () => {
     clearTimeout(waiting);
@@ -64,9 +67,11 @@ function makePlans({ scene, views, map, info, jobs }) {
   makeZoneFiles(scene, jobs);
   makeWireline(scene, jobs, map);
   const places = makeSearchForm(scene, map, jobs, info);
+  makeServedForm(scene, map, jobs, info);
   takeDrops(scene, { layout, places });
-  makeSiteChoice(scene, views, jobs);
+  makeSiteChoice({ scene, views, map, info, jobs });
   makePremisesSurvey(scene, jobs);
+  makeDwellingsSurvey(scene, jobs, info);
 }
 
 async function start() {
@@ -100,7 +105,7 @@ async function start() {
   makeSiteMarkers(map, scene);
   makeTargetMarker(map, scene);
   makeViewpointMarker(map, scene);
-  makeSheet();
+  makeSheet(scene, map);
   makeTasksForm(scene, info);
   makeShowForm(scene);
   takeClicks(scene, map, masts, turbines);
@@ -109,10 +114,11 @@ async function start() {
   makeOptionsForm(scene, info, views);
   makeLayersForm(scene, info);
   makeLegend(scene, views);
+  makeUndecided(scene, views);
   makeStatus(connection, views, tiles);
   makeLinePanel(scene, connection, map, lines, dark);
   new MastList(scene, views, tiles);
-  new Readout(scene, views, map, connection);
+  new Readout(scene, views, map, connection, info);
   makeReliefPanel({ scene, views, map, info });
   makePlans({ scene, views, map, info, jobs: new Jobs(key) });
   keepAddress(scene);

@@ -75,6 +75,12 @@ struct AttributeField {
   friend bool operator==(const AttributeField&, const AttributeField&) = default;
 };
 
+/// Consecutive numbers of features of a theme, both ends among them.
+struct FeatureRun {
+  std::int64_t first = 0, last = 0;
+  friend bool operator==(const FeatureRun&, const FeatureRun&) = default;
+};
+
 struct ThemeInfo {
   std::string name;
   ThemeKind kind = ThemeKind::Breaklines;
@@ -90,7 +96,13 @@ struct ThemeInfo {
   /// How far within their outlines the walls of the theme's features reach their full height, metres, where an import
   /// said so; elsewhere 0.05 or two grid steps.
   std::optional<double> wall_offset = {};
+  /// The footprints of a raised theme that do not stand: outside the terrain, say, or without a height. Ascending and
+  /// apart from each other; empty in stores of builds that did not record them.
+  std::vector<FeatureRun> left_out = {};
 
+  /// Tells whether the feature of this number, from 0, does not stand.
+  bool leaves_out(std::int64_t feature) const;
+  std::uint64_t left_out_count() const;
   bool is_raised() const { return footprint_blocks > 0; }
 };
 

@@ -24,7 +24,8 @@ struct OutlineDetail {
   double least = 0;      ///< rings that are smaller than this from west to east and from south to north are left out
 };
 
-/// Returns closed rings, courtyards among them, of all buildings and terraces of the chosen themes that meet the box.
+/// Returns closed rings, courtyards among them, of all buildings and terraces of the chosen themes that stand and meet
+/// the box.
 /// For a building with measured roofs but no footprint, they are the outlines of its roof planes. Empty where buildings
 /// do not stand on the ground. Reads all footprints of these themes, about a microsecond each. Throws CorruptStore.
 std::vector<std::vector<Point2>> building_outlines(const Store& store, const ThemeChoice& themes, const Box& box,
@@ -37,7 +38,7 @@ struct BuildingFoot {
   std::vector<std::vector<Point2>> rings;  ///< closed, of any orientation; read by the even-odd rule
 };
 
-/// Returns the buildings and terraces of the chosen themes that meet the box, in the order of themes and of import. For
+/// Returns the buildings and terraces of the chosen themes that stand and meet the box, in the order of themes and of import. For
 /// a building with measured roofs but no footprint, the rings are those of its roof planes. Costs and errors are those
 /// of building_outlines().
 std::vector<BuildingFoot> building_feet(const Store& store, const ThemeChoice& themes, const Box& box);

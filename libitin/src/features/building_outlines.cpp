@@ -9,7 +9,8 @@ namespace itin {
 
 namespace {
 
-/// Calls visit(theme, number, feature) for each building and terrace of the chosen themes that is not left out.
+/// Calls visit(theme, number, feature) for each building and terrace of the chosen themes that stands: neither the
+/// import nor the choice leaves it out.
 template <class Visit>
 void for_each_building(const Store& store, const ThemeChoice& themes, const Visit& visit) {
   const std::vector<ThemeInfo>& known = store.metadata().themes;
@@ -17,7 +18,7 @@ void for_each_building(const Store& store, const ThemeChoice& themes, const Visi
     if (!is_of_buildings(known[t]) || !themes.includes(known[t])) continue;
     const auto theme = static_cast<std::uint16_t>(t + 1);
     for_each_footprint(store, theme, [&](std::int64_t number, const StoredFootprint& footprint) {
-      if (!themes.omits(theme, number)) visit(theme, number, footprint.feature);
+      if (!themes.omits(theme, number) && !known[t].leaves_out(number)) visit(theme, number, footprint.feature);
     });
   }
 }

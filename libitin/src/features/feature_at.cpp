@@ -89,8 +89,10 @@ std::vector<std::optional<FeatureAt>> features_at(const Store& store, std::uint1
   std::vector<std::optional<FeatureAt>> found(places.size());
   std::vector<double> nearest(places.size(), kBesideFootprint);
   const std::vector<std::size_t> order = from_west(places);
+  const ThemeInfo& info = store.metadata().themes[theme - std::size_t{1}];
   for_each_footprint(store, theme, [&](std::int64_t number, const StoredFootprint& footprint) {
     progress.throw_if_cancelled();
+    if (info.leaves_out(number)) return;
     const Box box = extent_of(footprint.feature);
     auto i = std::lower_bound(order.begin(), order.end(), box.xmin - kBesideFootprint,
                               [&](std::size_t place, double x) { return places[place].x < x; });

@@ -91,13 +91,15 @@ class ThemeRaiser {
         footprints_(footprints),
         is_patch_(std::move(is_patch)),
         memory_bytes_(memory_bytes),
-        grid_(ground.metadata().grid) {
+        grid_(ground.metadata().grid),
+        stands_(footprints.size(), false) {
     options_.grid = grid_;
     options_.wall_offset = wall_offset;
     for (const LevelInfo& level : ground.metadata().levels)
       lateral_.push_back(level.lateral_tolerance / grid_.resolution);
   }
 
+  /// Fills `left_out` with places among this object's own footprints.
   RaisedFeatureTheme run(Progress& progress) {
     refuse_what_is_off_the_grid();
     const auto pieces = cut_into_pieces();
@@ -111,6 +113,8 @@ class ThemeRaiser {
       theme_.parts.push_back(std::move(part));
     }
     report_patches();
+    for (std::size_t i = 0; i < stands_.size(); ++i)
+      if (!stands_[i]) theme_.left_out.push_back(i);
     return std::move(theme_);
   }
 
@@ -254,7 +258,7 @@ class ThemeRaiser {
            const std::vector<FootprintFeature>& features) {
     theme_.ground.append(mesh.ground);
     std::vector<GridPolygon> masks;
-    for (const FeatureMask& mask : mesh.masks) masks.push_back(mask.polygon);
+    for (const FeatureMask& mask : mesh.masks) masks.push_back(mask.polygon), stands_[numbers[mask.feature]] = true;
     const MaskIndex index(masks);
     const std::vector<PartyWall> walls = party_walls(mesh, index, terrain);
     const std::vector<Kept> kept = kept_of(mesh, walls, numbers.size());
@@ -358,8 +362,24 @@ class ThemeRaiser {
   std::vector<double> lateral_;
   std::map<int, RaisedPart> parts_;
   std::map<int, std::uint32_t> clusters_;  ///< how many there are so far, by level
+  std::vector<bool> stands_;               ///< by footprint
   RaisedFeatureTheme theme_;
 };
+
+/// Returns which of `footprints` the places among `made.footprints` are, without those of patches.
+std::vector<std::size_t> places_among(std::span<const StoredFootprint> footprints, const CellFeatures& made,
+                                      const std::vector<std::size_t>& places) {
+  std::vector<std::size_t> given;
+  for (std::size_t i = 0; i < footprints.size(); ++i)
+    if (!footprints[i].feature.cells) given.push_back(i);
+  std::vector<std::size_t> found;
+  std::size_t at = 0, vectors = 0;  // among all that were made, and those of these that are no patches
+  for (const std::size_t place : places) {
+    for (; at < place; ++at) vectors += made.is_patch[at] ? 0 : 1;
+    if (!made.is_patch[place]) found.push_back(given[vectors]);
+  }
+  return found;
+}
 
 }  // namespace
 
@@ -371,9 +391,10 @@ RaisedFeatureTheme raise_theme(const Store& ground, std::span<const StoredFootpr
                                std::uint64_t memory_bytes, Progress& progress) {
   CellFeatures made = with_patches(ground, footprints, memory_bytes, progress);
   RaisedFeatureTheme theme =
-      ThemeRaiser(ground, made.any ? std::span<const StoredFootprint>(made.footprints) : footprints,
-                  std::move(made.is_patch), wall_offset, memory_bytes)
+      ThemeRaiser(ground, made.any ? std::span<const StoredFootprint>(made.footprints) : footprints, made.is_patch,
+                  wall_offset, memory_bytes)
           .run(progress);
+  if (made.any) theme.left_out = places_among(footprints, made, theme.left_out);
   theme.reports.insert(theme.reports.begin(), made.reports.begin(), made.reports.end());
   return theme;
 }

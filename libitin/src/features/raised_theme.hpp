@@ -48,6 +48,9 @@ struct RaisedFeatureTheme {
   std::vector<RaisedPart> parts;  ///< the finest first, none without features
   std::vector<RaisedReport> reports;
   std::uint64_t built = 0, refused = 0;
+  /// The places, among the footprints that were given, of those that do not stand; ascending. Rasters are never among
+  /// them.
+  std::vector<std::size_t> left_out;
 };
 
 /// The wall offset in metres where no import states one.

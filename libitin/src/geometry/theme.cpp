@@ -33,6 +33,18 @@ ThemeKind theme_kind(std::string_view name) {
   return static_cast<ThemeKind>(found - kKinds.begin());
 }
 
+bool ThemeInfo::leaves_out(std::int64_t feature) const {
+  const auto run =
+      std::partition_point(left_out.begin(), left_out.end(), [&](const FeatureRun& r) { return r.last < feature; });
+  return run != left_out.end() && run->first <= feature;
+}
+
+std::uint64_t ThemeInfo::left_out_count() const {
+  std::uint64_t count = 0;
+  for (const FeatureRun& run : left_out) count += static_cast<std::uint64_t>(run.last - run.first + 1);
+  return count;
+}
+
 bool comes_before(const ThemeInfo& a, const ThemeInfo& b) {
   const auto rank = [](const ThemeInfo& theme) {
     switch (theme.kind) {

@@ -82,6 +82,7 @@ ordered_json theme_to_json(const ThemeInfo& theme) {
   if (theme.wall_offset) j["wall_offset_m"] = *theme.wall_offset;
   for (const AttributeField& field : theme.fields)
     j["fields"].push_back({{"name", field.name}, {"type", name_of(field.type)}});
+  for (const FeatureRun& run : theme.left_out) j["left_out"].push_back({run.first, run.last});
   return j;
 }
 
@@ -90,6 +91,18 @@ AttributeField field_from_json(const json& j) {
   for (const AttributeType t : {AttributeType::number, AttributeType::whole, AttributeType::text})
     if (type == name_of(t)) return {j.at("name").get<std::string>(), t};
   throw DecodeError("a field is of no type");
+}
+
+/// Reads the features that do not stand, which ascend.
+std::vector<FeatureRun> left_out_from_json(const json& j) {
+  std::vector<FeatureRun> runs;
+  for (const json& run : j) {
+    const auto [first, last] = run.get<std::array<std::int64_t, 2>>();
+    if (first > last || first < 0 || (!runs.empty() && first <= runs.back().last))
+      throw DecodeError("features that are left out do not ascend");
+    runs.push_back({first, last});
+  }
+  return runs;
 }
 
 ThemeInfo theme_from_json(const json& j) {
@@ -104,6 +117,7 @@ ThemeInfo theme_from_json(const json& j) {
     theme.segments_have_features = j.value("segments_have_features", false);
     if (j.contains("wall_offset_m")) theme.wall_offset = j.at("wall_offset_m").get<double>();
     for (const json& field : j.value("fields", json::array())) theme.fields.push_back(field_from_json(field));
+    theme.left_out = left_out_from_json(j.value("left_out", json::array()));
     return theme;
   } catch (const InputError& e) {
     throw DecodeError(e.what());

@@ -191,6 +191,24 @@ TEST_F(ServeHttp, JudgesLinesAsTheCommandLine) {
   EXPECT_NEAR(profile.at("fresnel_m").back().get<double>(), 0, 1e-6);
 }
 
+TEST_F(ServeHttp, TellsWhereAPlaceIsAndTheGroundThere) {
+  const Json end = ask(*server_, "/api/v1/los?from=300500,171000,0&to=301800,171000,5").json().at("from");
+  const Json place = ask(*server_, "/api/v1/place?at=300500,171000").json();
+  for (const char* name : {"x", "y", "lon", "lat"}) EXPECT_DOUBLE_EQ(place.at(name), end.at(name)) << name;
+  EXPECT_NEAR(place.at("ground_m").get<double>(), end.at("ground_m").get<double>(), 1e-9);
+  EXPECT_EQ(place.at("grid_reference"), "ST 00500 71000");
+  EXPECT_EQ(ask(*server_, "/api/v1/place?at=ST%2000500%2071000").json(), place);
+  const auto expect = [&](const std::string& query, const std::string& error) {
+    const Answer answer = ask(*server_, "/api/v1/place" + query);
+    EXPECT_EQ(answer.status, 400) << query;
+    EXPECT_NE(answer.json().at("error").get<std::string>().find(error), std::string::npos) << answer.body;
+  };
+  expect("", "at: give a place");
+  expect("?at=nowhere", "at 'nowhere': ");
+  expect("?at=1,2", "off the data");
+  expect("?at=300500,171000&radius=5", "radius: is not asked for here");
+}
+
 TEST_F(ServeHttp, HasProfilesOfTheCommandLine) {
   const Json profile =
       ask(*server_, "/api/v1/profile?from=300200,171000&to=301800,171000&tolerance=0&tolerance=4").json();

@@ -30,7 +30,7 @@ class BuildingOutlines : public testing::Test {
       footprints_.push_back({x, y, x + 1 + metres(26), y + 1 + metres(36)});
     }
     import("houses", ThemeKind::Buildings, footprints_);
-    import("woods", ThemeKind::Vegetation, {{ 300010, 199210, 300040, 199240 }});
+    import("woods", ThemeKind::Vegetation, {{ 300015, 199215, 300040, 199240 }});
   }
 
   void import(const std::string& theme, ThemeKind kind, const std::vector<Box>& boxes) {
@@ -78,7 +78,7 @@ TEST_F(BuildingOutlines, AreThoseOfEveryFootprintOfAChosenThemeOfBuildings) {
 }
 
 TEST_F(BuildingOutlines, AreThoseOfTerracesToo) {
-  const Box row{300010, 199260, 300040, 199268};
+  const Box row{300015, 199260, 300045, 199268};
   import("rows", ThemeKind::Terraces, {row});
   expect_same(boxes_of(ThemeChoice::parse("rows"), row, {}), {row});
 }
@@ -110,6 +110,38 @@ TEST_F(BuildingOutlines, TellOneBuildingFromAnother) {
   const auto meeting =
       std::count_if(footprints_.begin(), footprints_.end(), [&](const Box& b) { return part.meets(b); });
   EXPECT_EQ(building_feet(Store(store_), ThemeChoice::all(), part).size(), static_cast<std::size_t>(meeting));
+}
+
+TEST_F(BuildingOutlines, AreNotThoseOfBuildingsThatTheImportLeftOut) {
+  // The terrain ends at 300800 in the east; two buildings lie beyond it, and one reaches over its border.
+  const std::vector<Box> boxes{{300900, 199400, 300920, 199420},
+                               {300950, 199400, 300970, 199420},
+                               {300740, 199900, 300760, 199920},
+                               {300790, 199400, 300820, 199420}};
+  import("far", ThemeKind::Buildings, boxes);
+  const Box all{299000, 198000, 302000, 201000};
+  expect_same(boxes_of(ThemeChoice::parse("far"), all, {}), {boxes[2]});
+  const Store store(store_);
+  const auto far = std::find_if(store.metadata().themes.begin(), store.metadata().themes.end(),
+                                [](const ThemeInfo& theme) { return theme.name == "far"; });
+  EXPECT_EQ(far->left_out, (std::vector<FeatureRun>{{0, 1}, {3, 3}}));
+  EXPECT_EQ(far->left_out_count(), 3U);
+  EXPECT_EQ(far->features, 1U);
+  const std::vector<BuildingFoot> feet = building_feet(store, ThemeChoice::parse("far"), all);
+  ASSERT_EQ(feet.size(), 1U);
+  EXPECT_EQ(feet[0].feature, 2);
+}
+
+TEST_F(BuildingOutlines, ReturnWhereTheGroundHasCome) {
+  const Box beyond{300900, 199400, 300920, 199420};
+  import("far", ThemeKind::Buildings, {beyond});
+  EXPECT_TRUE(boxes_of(ThemeChoice::parse("far"), beyond, {}).empty());
+  test::write_raster(directory_.file("east.tif"), {300800, 200000, 20, 40, 40, 27700}, [](int, int) { return 50.0; });
+  ImportOptions terrain;
+  terrain.sources = {directory_.file("east.tif")};
+  import_terrain(store_, terrain, progress_);
+  expect_same(boxes_of(ThemeChoice::parse("far"), beyond, {}), {beyond});
+  for (const ThemeInfo& theme : Store(store_).metadata().themes) EXPECT_TRUE(theme.left_out.empty()) << theme.name;
 }
 
 }  // namespace

@@ -19,6 +19,7 @@
 #include <itin/triangulate.hpp>
 
 #include "libitin/features/surface_comparison.hpp"
+#include "support/houses.hpp"
 #include "support/raster_file.hpp"
 #include "support/seed.hpp"
 #include "support/sound_store.hpp"
@@ -82,6 +83,23 @@ class HeightRaster : public testing::Test {
   NoProgress progress_;
   test::TemporaryDirectory directory_;
 };
+
+TEST_F(HeightRaster, OutlinesOfItsThemeThatDoNotStandAreKnownByTheirNumbers) {
+  import_hills();
+  ImportOptions options =
+      heights(ThemeKind::Buildings, {300031, 199961, 2, 70, 30, 27700}, [](int c, int) { return c < 5 ? 6.0 : 0.0; });
+  options.theme = "town";
+  import_lines(path("s.itin"), options, progress_);
+  const Store rasters(path("s.itin"));
+  const auto parts = static_cast<std::int64_t>(features_of(rasters, 1).size());
+  // The ground ends at 300235 in the east.
+  test::import_raised(path("s.itin"), path("town.geojson"), ThemeKind::Buildings, "town",
+                      {test::box(300300, 199900, 300310, 199910, 8), test::box(300200, 199850, 300210, 199860, 8),
+                       test::box(300400, 199900, 300410, 199910, 8), test::box(300420, 199900, 300430, 199910, 8)});
+  const Store store(path("s.itin"));
+  ASSERT_EQ(store.metadata().themes.size(), 1U);
+  EXPECT_EQ(store.metadata().themes[0].left_out, (std::vector<FeatureRun>{{parts, parts}, {parts + 2, parts + 3}}));
+}
 
 TEST_F(HeightRaster, StandsAsThePrismsOfItsCells) {
   struct Way {

@@ -21,6 +21,14 @@ function alongLine(from, to, [x, y]) {
   return { share: along / length, beside: Math.abs((x - from.x) * north - (y - from.y) * east) };
 }
 
+const capital = (/** @type {string} */ text) => text.replace(/^./, (letter) => letter.toUpperCase());
+
+/** Who sees whom, or what hides it. @param {Scene} scene @param {import("./sight_line.js").SightLine} line */
+function verdictOf({ mast, farEnd }, line) {
+  const ends = [mast?.name, farEnd?.name].filter(Boolean).join(" to ");
+  return `${ends}: ${verdictWords(line).replace(/^./, (letter) => letter.toLowerCase())}`;
+}
+
 /**
  * @param {Scene} scene @param {import("../server/live_connection.js").LiveConnection} connection
  * @param {import("../vendor/ol.js").OlMap} map
@@ -40,13 +48,17 @@ export function makeLinePanel(scene, connection, map, layer, dark) {
     () => (panel.ariaBusy = "true"),
     (line, error, newest) => {
       panel.ariaBusy = String(!newest);
-      keepingPlace(map, scene.farEnd, () => (panel.hidden = line === null && error === ""));
+      const fill = () => {
+        panel.hidden = line === null && error === "";
+        verdict.textContent = line ? verdictOf(scene, line) : capital(inPageWords(error));
+        verdict.dataset.verdict = line?.verdict ?? "";
+        facts.replaceChildren(...(line ? lineFacts(line) : []).map(factElement));
+      };
+      // The panel is as high as what it says. A page that opens with a line has its map where it was left.
+      const opens = !panel.hidden && verdict.textContent === "";
+      if (opens) fill();
+      else keepingPlace(map, scene.farEnd, fill);
       length = line?.distance_m ?? 0;
-      verdict.textContent = line
-        ? `${[scene.mast?.name, scene.farEnd?.name].filter(Boolean).join(" to ")}: ${verdictWords(line).replace(/^./, (letter) => letter.toLowerCase())}`
-        : inPageWords(error);
-      verdict.dataset.verdict = line?.verdict ?? "";
-      facts.replaceChildren(...(line ? lineFacts(line) : []).map(factElement));
       chart.show(line, scene.mast?.hue ?? 0);
       if (!line) layer.mark(null);
     },

@@ -1,6 +1,7 @@
 // What stands on the map stays where it is on the screen while a panel below opens or closes.
 
-const MARGIN_PIXELS = 24;
+/** Room for a marker above the scale. */
+const MARGIN_PIXELS = 56;
 
 /** The middle of the map after a place was brought into view, and how far north that is of where it would have been. */
 let raised = { north: NaN, by: 0 };

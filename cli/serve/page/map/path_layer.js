@@ -4,8 +4,33 @@ import { Layer } from "../vendor/ol.js";
 
 /** @typedef {import("ol/Map.js").FrameState} FrameState */
 /** @typedef {number[]} TileCoordinate  z, x and y. */
-/** @typedef {{path: Path2D, fill?: string, line: string, width: number}} Drawing
- *    A path in metres to the east and the south of the tile's north-west corner; `width` of its line in pixels. */
+/** @typedef {{text: string, x: number, y: number, angle: number, colour: string, halo: string}} Writing
+ *    A text about a place, turned clockwise. */
+/** @typedef {{path: Path2D, fill?: string, line: string, width: number, labels?: Writing[]}} Drawing
+ *    A path in metres to the east and the south of the tile's north-west corner, as are the places of labels; `width` of
+ *    its line in pixels. */
+
+const FONT_PIXELS = 11;
+const HALO_PIXELS = 3;
+
+/** Writes a text upright to its line, in pixels of the screen. @param {CanvasRenderingContext2D} pen
+ * @param {Writing} label @param {number} scale  Of the pen. @param {number} pixelRatio */
+function write(pen, { text, x, y, angle, colour, halo }, scale, pixelRatio) {
+  pen.save();
+  pen.translate(x, y);
+  pen.rotate(angle);
+  pen.scale(pixelRatio / scale, pixelRatio / scale);
+  pen.font = `${FONT_PIXELS}px system-ui, sans-serif`;
+  pen.textAlign = "center";
+  pen.textBaseline = "middle";
+  pen.lineJoin = "round";
+  pen.lineWidth = HALO_PIXELS;
+  pen.strokeStyle = halo;
+  pen.strokeText(text, 0, 0);
+  pen.fillStyle = colour;
+  pen.fillText(text, 0, 0);
+  pen.restore();
+}
 
 export class PathLayer extends Layer {
   /** @type {Map<string, Drawing[]>} empty while they are loaded */
@@ -71,7 +96,7 @@ export class PathLayer extends Layer {
     pen.beginPath();
     pen.rect(0, 0, east - west, north - south);
     pen.clip();
-    for (const { path, fill, line, width } of this.#drawings(tile, variant)) {
+    for (const { path, fill, line, width, labels = [] } of this.#drawings(tile, variant)) {
       if (fill) {
         pen.fillStyle = fill;
         pen.fill(path, "evenodd");
@@ -79,6 +104,7 @@ export class PathLayer extends Layer {
       pen.strokeStyle = line;
       pen.lineWidth = (width * pixelRatio) / scale;
       pen.stroke(path);
+      for (const label of labels) write(pen, label, scale, pixelRatio);
     }
     pen.restore();
   }

@@ -1,4 +1,5 @@
-// Where sites are looked for, and the candidates: an area that is drawn on the map or was sent, and points.
+// Where sites are looked for, and the candidates: an area that is drawn on the map or was sent, and points; and what
+// they are to serve.
 
 import { Circle, Draw, Feature, Fill, Polygon, Stroke, Style, VectorLayer, VectorSource } from "../vendor/ol.js";
 import { closedCorners } from "../state/plan.js";
@@ -11,9 +12,37 @@ const AREA = new Style({
   stroke: new Stroke({ color: LINE, width: 2, lineDash: [8, 5] }),
   fill: new Fill({ color: "rgb(255 255 255 / 0.12)" }),
 });
+const SERVED_LINE = "rgb(0 90 150 / 0.95)";
+const SERVED_AREA = new Style({
+  stroke: new Stroke({ color: SERVED_LINE, width: 2, lineDash: [2, 5], lineCap: "round" }),
+  fill: new Fill({ color: "rgb(86 180 233 / 0.12)" }),
+});
+const SERVED_PIXELS = 2.5;
 const CANDIDATE_PIXELS = 3.5;
 /** How far from a candidate a click still means it, in pixels. */
 const NEAR_PIXELS = 10;
+
+/** What is to be served, as far as it is drawn or loaded. @param {import("../state/scene.js").SceneState} state */
+const servedOf = ({ served }) => ({
+  rings: served.kind === "area" && served.ring ? [served.ring] : [],
+  places: served.kind === "places" ? served.places : [],
+});
+
+/** @param {number[][]} rings @param {Style} style */
+const areasOf = (rings, style) =>
+  rings.map((ring) => {
+    const area = new Feature(new Polygon([closedCorners(ring)]));
+    area.setStyle(style);
+    return area;
+  });
+
+/** @param {{x: number, y: number}[]} places @param {number} pixels @param {Fill} fill @param {Stroke} stroke */
+const pointsOf = (places, pixels, fill, stroke) =>
+  places.map(({ x, y }) => {
+    const point = new Feature(new Circle([x, y], 1));
+    point.setStyle((_, resolution) => new Style({ geometry: new Circle([x, y], pixels * resolution), fill, stroke }));
+    return point;
+  });
 
 /** @param {import("../state/scene.js").SceneState} state @returns {{rings: number[][], places: {x: number, y: number}[]}} */
 function searched({ search, plan }) {
@@ -25,7 +54,7 @@ export class SearchLayer extends VectorLayer {
   /** @param {Scene} scene */
   constructor(scene) {
     super({ source: new VectorSource() });
-    scene.on(["search", "plan", "task"], () => this.#draw(scene));
+    scene.on(["search", "served", "plan", "task"], () => this.#draw(scene));
   }
 
   /** @param {Scene} scene */
@@ -33,24 +62,19 @@ export class SearchLayer extends VectorLayer {
     const source = /** @type {VectorSource} */ (this.getSource());
     source.clear(true);
     this.setVisible(scene.state.task === "sites");
+    const served = servedOf(scene.state);
     const { rings, places } = searched(scene.state);
-    for (const ring of rings) {
-      const area = new Feature(new Polygon([closedCorners(ring)]));
-      area.setStyle(AREA);
-      source.addFeature(area);
-    }
-    for (const { x, y } of places) {
-      const point = new Feature(new Circle([x, y], 1));
-      point.setStyle(
-        (_, resolution) =>
-          new Style({
-            geometry: new Circle([x, y], CANDIDATE_PIXELS * resolution),
-            fill: new Fill({ color: "#fff" }),
-            stroke: new Stroke({ color: LINE, width: 1.5 }),
-          }),
-      );
-      source.addFeature(point);
-    }
+    source.addFeatures([
+      ...areasOf(served.rings, SERVED_AREA),
+      ...areasOf(rings, AREA),
+      ...pointsOf(
+        served.places,
+        SERVED_PIXELS,
+        new Fill({ color: SERVED_LINE }),
+        new Stroke({ color: "#fff", width: 1 }),
+      ),
+      ...pointsOf(places, CANDIDATE_PIXELS, new Fill({ color: "#fff" }), new Stroke({ color: LINE, width: 1.5 })),
+    ]);
   }
 }
 

@@ -80,7 +80,7 @@ function verdictEntries(scene, sources) {
   if (options.frequency || holds(sources, CUT)) {
     entries.push([hueCss(sources.at(0)?.hue ?? 0), "paler: Fresnel zone cut", 0.3]);
   }
-  if (holds(sources, UNDECIDED)) entries.push([cssColour(UNDECIDED_COLOUR), "undecided: ground without data"]);
+  if (holds(sources, UNDECIDED)) entries.push([cssColour(UNDECIDED_COLOUR), "undecided, behind ground without data"]);
   return entries;
 }
 

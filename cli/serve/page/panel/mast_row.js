@@ -101,7 +101,7 @@ function summaryOf({ cells, area_m2 }) {
 /** What else the planner should know of the answer. @param {import("../server/live_connection.js").Message} done */
 function notesOf({ area_m2, warnings }) {
   const cut = area_m2.zone_cut ? [`${areaText(area_m2.zone_cut)} more are in sight with the Fresnel zone cut`] : [];
-  return [...cut, ...warnings.map(inPageWords)]
+  return [...cut, ...warnings.map((/** @type {string} */ warning) => inPageWords(warning))]
     .map((note) => `${note.slice(0, 1).toUpperCase()}${note.slice(1)}.`)
     .join(" ");
 }

@@ -1,7 +1,7 @@
 // The button and the field that say where the next mast goes.
 
 import { element } from "./elements.js";
-import { messageOf } from "./words.js";
+import { problemText } from "./page_words.js";
 import { askPlace } from "../server/api.js";
 import { MOST_MASTS } from "../state/scene.js";
 
@@ -19,12 +19,14 @@ export function makePlaceForm(scene, map) {
     event.preventDefault();
     problem.textContent = "";
     try {
-      const place = await askPlace(input.value);
+      const { x, y, ground_m } = await askPlace(input.value);
+      if (ground_m === null) throw new Error(`'${input.value}': there is no ground in the data`);
+      const place = { x, y };
       scene.addMast(place);
       showPlace(map, place);
       input.value = "";
     } catch (error) {
-      problem.textContent = messageOf(error).replace(/^--from /, "");
+      problem.textContent = problemText(error).replace(/^at /, "");
     }
   });
   scene.on(["placing", "masts", "task"], () => {

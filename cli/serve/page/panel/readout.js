@@ -1,9 +1,11 @@
-// What is under the cursor: asked of the server for the mast selected, looked up in the cells for the others.
+// What is under the cursor: asked of the server for the mast selected, looked up in the cells for the others. Before
+// anything stands on the map, and while something is placed, where the cursor is and how high the ground.
 
 import { element, make } from "./elements.js";
-import { azimuthsText, distanceText, metresText, numberText, placeText } from "./words.js";
+import { azimuthsText, degreesText, distanceText, metresText, numberText, placeText } from "./words.js";
 import { CUT, NEAREST, VERDICT, VISIBLE } from "../seen/seen_cells.js";
 import { hueCss } from "../seen/palette.js";
+import { askPlace } from "../server/api.js";
 import { letterOf } from "../state/mast_letter.js";
 import { withUnit } from "../seen/values.js";
 import { HUBS, TIPS, modeOf, viewerOf, viewersOf } from "../seen/viewers.js";
@@ -14,6 +16,7 @@ import { HUBS, TIPS, modeOf, viewerOf, viewersOf } from "../seen/viewers.js";
 
 const BESIDE = 18; // pixels between the pointer and the readout
 const NEVER_SENT = -1;
+const LONG = 20; // letters: where a CRS has no code, its whole text stands in its place
 
 export class Readout {
   #box = element("readout");
@@ -25,10 +28,13 @@ export class Readout {
   #pixel = [0, 0];
   #seq = 0;
   #waiting = false;
+  #asking = false;
 
   /** @param {Scene} scene @param {LiveViews} views @param {import("../vendor/ol.js").OlMap} map
-   * @param {import("../server/live_connection.js").LiveConnection} connection */
-  constructor(scene, views, map, connection) {
+   * @param {import("../server/live_connection.js").LiveConnection} connection
+   * @param {import("../server/api.js").Info} info */
+  constructor(scene, views, map, connection, info) {
+    this.info = info;
     this.scene = scene;
     this.views = views;
     this.connection = connection;
@@ -44,13 +50,24 @@ export class Readout {
 
   /** @param {number[] | null} place @param {number[]} pixel */
   #moved(place, pixel) {
-    const { state } = this.scene;
-    const seen = state.task === "turbines" ? state.turbines.length > 0 : viewerOf(state) !== null;
-    this.#place = seen && !state.placing ? place : null;
+    this.#place = place && (this.#isSeen || this.#isOnData(place)) ? place : null;
     this.#pixel = pixel;
     if (!this.#place) this.#box.hidden = true;
     this.#putBeside();
     this.#ask();
+  }
+
+  /** Whether the map shows what is seen, and not where something is to stand. */
+  get #isSeen() {
+    const { state } = this.scene;
+    if (state.placing) return false;
+    return state.task === "turbines" ? state.turbines.length > 0 : viewerOf(state) !== null;
+  }
+
+  /** @param {number[]} place */
+  #isOnData([x, y]) {
+    const { xmin, ymin, xmax, ymax } = this.info.bounds;
+    return x >= xmin && x <= xmax && y >= ymin && y <= ymax;
   }
 
   /** Puts the box beside the pointer, on that side where the map has room for it. */
@@ -71,17 +88,45 @@ export class Readout {
       this.#waiting = false;
       const mast = viewerOf(this.scene.state);
       if (!this.#place) return;
+      if (!this.#isSeen) return void this.#askGround();
       if (!mast) return this.#showCounts(this.#place);
       this.#seq += 1;
       this.connection.send({ type: "probe", id: mast.id, seq: this.#seq, x: this.#place[0], y: this.#place[1] });
     });
   }
 
+  /** Asks what the ground is under the cursor, one place at a time. */
+  async #askGround() {
+    if (this.#asking) return;
+    const asked = this.#place;
+    if (!asked) return;
+    this.#asking = true;
+    try {
+      const known = await askPlace(asked.join(","));
+      if (this.#place && !this.#isSeen) this.#showGround(known);
+    } catch {
+      // The map's own tiles of the ground say what is wrong with the server or the store.
+    }
+    this.#asking = false;
+    if (this.#place && this.#place !== asked) this.#ask();
+  }
+
+  /** @param {import("../server/api.js").KnownPlace} known */
+  #showGround({ x, y, lon, lat, grid_reference, ground_m }) {
+    /** @type {[string, string][]} */
+    const facts = [["At", placeText(x, y)]];
+    if (grid_reference) facts.push(["Grid reference", grid_reference]);
+    if (lon !== null && lat !== null) facts.push(["Degrees", degreesText(lon, lat)]);
+    facts.push(["In", this.info.crs.length > LONG ? this.info.crs_name : this.info.crs]);
+    this.#masts.hidden = true;
+    this.#tell(ground_m === null ? "Ground without data" : `Ground ${metresText(ground_m)}`, null, facts);
+  }
+
   /** @param {Message} probe */
   #show(probe) {
     const mast = viewerOf(this.scene.state);
     const place = this.#place;
-    if (!mast || !place) return;
+    if (!mast || !place || !this.#isSeen) return;
     const others = viewersOf(this.scene.state).filter((other) => other.id !== mast.id);
     this.#masts.replaceChildren(...others.map((other) => this.#chip(other, place)));
     this.#masts.hidden = others.length === 0;
@@ -104,11 +149,12 @@ export class Readout {
     this.#tell(this.#cellValue(TIPS, place) > 0 ? "Turbines are seen" : "No turbine is seen", 0, facts);
   }
 
-  /** @param {string} verdict @param {number} hue @param {[string, string][]} facts */
+  /** @param {string} verdict @param {number | null} hue  Null where it is of no mast.
+   * @param {[string, string][]} facts */
   #tell(verdict, hue, facts) {
     this.#box.hidden = false;
     this.#verdict.textContent = verdict;
-    this.#verdict.style.setProperty("--hue", hueCss(hue));
+    this.#verdict.style.setProperty("--hue", hue === null ? "transparent" : hueCss(hue));
     this.#facts.replaceChildren(...facts.flatMap(([name, value]) => [make("dt", "", name), make("dd", "", value)]));
     this.#putBeside();
   }

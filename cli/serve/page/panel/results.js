@@ -2,7 +2,7 @@
 // server in a process of its own.
 
 import { element } from "./elements.js";
-import { messageOf } from "./words.js";
+import { problemText } from "./page_words.js";
 import { observerOf } from "../seen/viewers.js";
 
 /** @typedef {import("../state/scene.js").Scene} Scene */
@@ -106,7 +106,7 @@ class Download {
       const job = await this.jobs.ended(url, (now) => this.#look(now), this.#given.signal);
       if (job) this.#save(job.files);
     } catch (problem) {
-      this.#said.textContent = messageOf(problem);
+      this.#said.textContent = problemText(problem);
     }
     this.#box.hidden = true;
   }

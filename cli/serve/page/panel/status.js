@@ -1,6 +1,7 @@
 // How far the map is, and what is wrong: one line over the map.
 
 import { element } from "./elements.js";
+import { inPageWords } from "./page_words.js";
 
 /** @typedef {import("../server/live_connection.js").LiveConnection} LiveConnection */
 /** @typedef {import("../seen/live_views.js").LiveViews} LiveViews */
@@ -27,7 +28,8 @@ export function makeStatus(connection, views, tiles) {
     const steps = found.filter((view) => view.cells && !view.done).map((view) => view.cells?.step ?? 1);
     const reading = found.some((view) => !view.cells && !view.error) ? "Reading the ground …" : "";
     line.textContent =
-      trouble || (steps.length > 0 ? (SHARES[Math.max(...steps)] ?? "Deciding the last cells …") : reading);
+      inPageWords(trouble) ||
+      (steps.length > 0 ? (SHARES[Math.max(...steps)] ?? "Deciding the last cells …") : reading);
     line.classList.toggle("problem", trouble !== "");
     line.hidden = line.textContent === "";
   };

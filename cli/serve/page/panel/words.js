@@ -19,6 +19,9 @@ export const metresText = (metres) =>
 export const distanceText = (metres) =>
   metres < 1000 ? `${numberText(metres)} m` : `${numberText(metres / 1000, 2)} km`;
 
+/** A length that somebody chose. @param {number} metres */
+export const chosenText = (metres) => (metres < 1000 ? `${metres} m` : `${metres / 1000} km`);
+
 /** @param {number} degrees */
 const azimuthText = (degrees) => `${numberText(degrees, 1).padStart(5, "0")}°`;
 
@@ -35,6 +38,10 @@ export const shareText = (part, whole) => (whole > 0 ? `${numberText((100 * part
 
 /** @param {number} x @param {number} y */
 export const placeText = (x, y) => `${numberText(x)} E ${numberText(y)} N`;
+
+/** @param {number} lon @param {number} lat */
+export const degreesText = (lon, lat) =>
+  `${numberText(Math.abs(lat), 5)}${lat < 0 ? "S" : "N"} ${numberText(Math.abs(lon), 5)}${lon < 0 ? "W" : "E"}`;
 
 /** An azimuth from grid north, and from true north where that is known. @param {number} grid @param {number | null} north */
 export const azimuthsText = (grid, north) =>

@@ -8,10 +8,11 @@ const SURFACE = ["themes", "tolerance", "nodata", "curvature", "refraction", "ea
 const TAKEN = {
   ztv: ["radius", "cell", ...SURFACE],
   site: ["radius", "cell", "frequency", "fresnel", "target-on", "observer-on", ...SURFACE],
+  dwellings: SURFACE.filter((name) => name !== "tolerance"),
   premises: ["radius", "frequency", "fresnel", "observer-on", ...SURFACE.filter((name) => name !== "tolerance")],
 };
 /** The map's targets are the eyes that look at turbines. @type {Record<string, string>} */
-const TARGET_HEIGHT = { ztv: "observer-height", site: "target-height" };
+const TARGET_HEIGHT = { ztv: "observer-height", dwellings: "observer-height", site: "target-height" };
 
 /** @param {string} verb @param {Options} options @returns {Options} */
 export function jobOptions(verb, options) {

@@ -1,26 +1,33 @@
 // A call of the program that the planner starts: how far it is, what is wrong with it, and the files that it wrote.
 
 import { make } from "../panel/elements.js";
-import { messageOf, numberText } from "../panel/words.js";
+import { inPageWords, problemText } from "../panel/page_words.js";
+import { numberText } from "../panel/words.js";
 
 /** @typedef {import("../server/api.js").Jobs} Jobs */
 /** @typedef {import("../server/api.js").Job} Job */
 /** @typedef {{verb: string, options: import("../server/api.js").Options, uploads: string[]}} Call
  *    `uploads` are files that only this call reads. */
 
+/** The server's names for files. */
+const UPLOADED = /upload-\d+\.\w+/g;
+
 export class JobRun {
   #now = make("div", "run-now");
   #bar = make("progress");
   #stage = make("span", "quiet");
   #problem = make("p", "problem");
+  #warnings = make("p", "quiet run-warnings");
   #files = make("ul", "run-files");
   #given = new AbortController();
 
   /** @param {HTMLElement} box @param {Jobs} jobs @param {string} what  What is being done, for those who hear it.
-   * @param {(name: string) => boolean} [listed]  Which of the files are listed. */
-  constructor(box, jobs, what, listed = () => true) {
+   * @param {(name: string) => boolean} [listed]  Which of the files are listed.
+   * @param {Map<string, string>} [names]  What options are called that have fields of their own. */
+  constructor(box, jobs, what, listed = () => true, names = new Map()) {
     this.jobs = jobs;
     this.listed = listed;
+    this.names = names;
     const cancel = make("button", "", "Cancel");
     cancel.type = "button";
     cancel.addEventListener("click", () => this.cancel());
@@ -31,7 +38,7 @@ export class JobRun {
     this.#files.tabIndex = 0;
     this.#files.ariaLabel = "Files";
     box.classList.add("run");
-    box.append(this.#now, this.#problem, this.#files);
+    box.append(this.#now, this.#problem, this.#warnings, this.#files);
     this.#show(false);
     this.#files.hidden = true;
   }
@@ -56,6 +63,7 @@ export class JobRun {
     const given = new AbortController();
     this.#given = given;
     this.#problem.textContent = "";
+    this.#warnings.textContent = "";
     this.#files.hidden = true;
     this.#look({ share: 0, stage: "waiting", seconds_left: null });
     this.#show(true);
@@ -63,10 +71,13 @@ export class JobRun {
     try {
       job = await this.#ended(await prepare(), given.signal);
     } catch (problem) {
-      if (!given.signal.aborted) this.#problem.textContent = messageOf(problem);
+      if (!given.signal.aborted) {
+        this.#problem.textContent = problemText(problem, this.names).replace(UPLOADED, "the table sent");
+      }
     }
     if (this.#given === given) this.#show(false);
     if (given.signal.aborted) return null;
+    if (job) this.#warn(job);
     if (job) this.#list(job);
     return job;
   }
@@ -91,6 +102,15 @@ export class JobRun {
     this.#bar.value = share ?? 0;
     const left = seconds_left ? `, ${numberText(Math.ceil(seconds_left))} s left` : "";
     this.#stage.textContent = `${stage ?? "starting"}${left}`;
+  }
+
+  /** Says what the program warns of. @param {Job} job */
+  #warn({ document }) {
+    this.#warnings.textContent = (document?.warnings ?? [])
+      .map((/** @type {string} */ warning) => inPageWords(warning, this.names))
+      .map((/** @type {string} */ text) => `${text.slice(0, 1).toUpperCase()}${text.slice(1)}.`)
+      .join(" ")
+      .replace(UPLOADED, "the table sent");
   }
 
   /** Lists the files, a report first. @param {Job} job */

@@ -5,6 +5,7 @@ import { areaText, countedText } from "../panel/words.js";
 import { roundUp } from "../state/first_state.js";
 import { areaOf, haveHeights } from "../state/plan.js";
 import { drawArea } from "../map/search_layer.js";
+import { ringInView } from "./served_form.js";
 import { takeFiles } from "./tasks_form.js";
 
 /** @typedef {import("../state/scene.js").Scene} Scene */
@@ -34,13 +35,13 @@ export const usualSpacing = (search) => roundUp(Math.sqrt(areaIn(search)) / CAND
  * @param {import("../server/api.js").Jobs} jobs @param {import("../server/api.js").Info} info */
 export function makeSearchForm(scene, map, jobs, info) {
   const take = (/** @type {Search} */ search) => scene.change({ search, plan: null });
-  makeDrawing(scene, map, (ring) => take({ ring }));
+  makeDrawing(scene, map, (ring) => {
+    if (scene.state.drawing === "search") take({ ring });
+    else scene.change({ served: { kind: "area", ring }, plan: null });
+  });
   element("area-in-view").addEventListener("click", () => {
-    const [west, south, east, north] = map.getView().calculateExtent();
-    const { xmin, ymin, xmax, ymax } = info.bounds;
-    const [w, s] = [Math.max(west, xmin), Math.max(south, ymin)].map(Math.ceil);
-    const [e, n] = [Math.min(east, xmax), Math.min(north, ymax)].map(Math.floor);
-    if (w < e && s < n) take({ ring: [w, s, e, s, e, n, w, n] });
+    const ring = ringInView(map, info);
+    if (ring) take({ ring });
   });
   const takePlaces = takeFiles("candidates", element("candidates-problem"), async (file) => {
     const { name, places, rings } = await jobs.send(file.name, file);
@@ -63,17 +64,26 @@ export function makeSearchForm(scene, map, jobs, info) {
 
 /** @param {Scene} scene @param {OlMap} map @param {(ring: number[]) => void} take */
 function makeDrawing(scene, map, take) {
-  const button = element("area-button");
   /** @type {(() => void) | null} */
   let stop = null;
   const end = () => scene.change({ placing: false });
-  button.addEventListener("click", () => scene.change({ placing: !scene.state.placing }));
-  scene.on(["placing", "task"], () => {
-    const drawing = scene.state.task === "sites" && scene.state.placing;
-    button.setAttribute("aria-pressed", String(drawing));
-    element("map").classList.toggle("drawing", drawing);
-    if (drawing === (stop !== null)) return;
+  const buttons = /** @type {const} */ ([
+    [element("area-button"), "search"],
+    [element("served-button"), "served"],
+  ]);
+  for (const [button, what] of buttons) {
+    button.addEventListener("click", () => {
+      const { placing, drawing } = scene.state;
+      scene.change({ placing: !(placing && drawing === what), drawing: what });
+    });
+  }
+  scene.on(["placing", "drawing", "task"], () => {
+    const { task, placing, drawing } = scene.state;
+    const active = task === "sites" && placing;
+    for (const [button, what] of buttons) button.setAttribute("aria-pressed", String(active && drawing === what));
+    element("map").classList.toggle("drawing", active);
+    if (active === (stop !== null)) return;
     stop?.();
-    stop = drawing ? drawArea(map, take, end) : null;
+    stop = active ? drawArea(map, take, end) : null;
   });
 }

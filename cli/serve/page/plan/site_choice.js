@@ -1,15 +1,17 @@
 // The choice of sites: made by the server, shown with what each adds, and compared with what the planner makes of it.
 
 import { element, make } from "../panel/elements.js";
-import { areaText, numberText, shareText } from "../panel/words.js";
+import { inPageWords } from "../panel/page_words.js";
+import { areaText, countedText, numberText, shareText } from "../panel/words.js";
 import { hueCss } from "../seen/palette.js";
 import { VISIBLE } from "../seen/seen_cells.js";
 import { sourcesOf } from "../seen/shown.js";
-import { tally } from "../seen/tally.js";
+import { countServed, tally } from "../seen/tally.js";
 import { MOST_SITES, haveHeights, isMoved, polygonText, putBack, selectSite, sitesOf } from "../state/plan.js";
 import { MOST_MASTS } from "../state/scene.js";
 import { jobOptions } from "./job_options.js";
 import { JobRun } from "./job_run.js";
+import { servedCall } from "./served_form.js";
 import { placesIn } from "./tables.js";
 
 /** @typedef {import("../state/scene.js").Scene} Scene */
@@ -30,47 +32,61 @@ function searchOptions(search) {
   return { candidates: search.upload, ...(named ? { "name-field": "name" } : {}) };
 }
 
-/** @param {Scene} scene @returns {Promise<import("./job_run.js").Call>} */
-async function siteCall({ state: { search, options } }) {
+/** @typedef {{scene: Scene, views: LiveViews, map: import("../vendor/ol.js").OlMap,
+ *    info: import("../server/api.js").Info, jobs: import("../server/api.js").Jobs}} World */
+
+/** @param {World} world @returns {Promise<{call: import("./job_run.js").Call, asked: import("./served_form.js").Asked}>} */
+async function siteCall({ scene, map, info, jobs }) {
+  const { search, options } = scene.state;
   if (!search) throw new Error("Say where masts may stand: draw an area, or load places.");
   const count = Number(field("site-count"));
   if (!(Number.isInteger(count) && count >= 1 && count <= MOST_SITES)) {
     throw new Error(`The map shows from 1 to ${MOST_SITES} sites; the command line takes more.`);
   }
-  return {
+  const served = await servedCall(scene, map, info, jobs);
+  const call = {
     verb: "site",
     options: {
       ...jobOptions("site", options),
       ...searchOptions(search),
       ...(haveHeights(search) ? {} : { "mast-height": field("site-height") }),
       ...{ count: field("site-count"), output: SITES },
+      ...served.options,
     },
-    uploads: [],
+    uploads: served.uploads,
   };
+  return { call, asked: served.asked };
 }
 
-/** @param {Job} job @param {number} cell @returns {Promise<Plan>} */
-async function planOf({ document, files }, cell) {
+/** @param {Job} job @param {Pick<Plan["result"], "cell" | "asked" | "wanted">} asked @returns {Promise<Plan>} */
+async function planOf({ document, files }, asked) {
   const sites = sitesOf(document.chosen);
   const table = files.find(({ name }) => name === `${SITES}/candidates.csv`);
   const candidates = table ? placesIn(await (await fetch(table.url)).text()) : [];
-  const result = { value: document.value, demand: document.demand, gap: document.gap_percent, cell };
+  const result = { value: document.value, demand: document.demand, gap: document.gap_percent, ...asked };
   return { sites, selected: sites[0]?.id ?? -1, candidates, result };
 }
 
-/** @param {Scene} scene @param {LiveViews} views @param {import("../server/api.js").Jobs} jobs */
-export function makeSiteChoice(scene, views, jobs) {
+/** @param {World} world */
+export function makeSiteChoice(world) {
+  const { scene, views, jobs } = world;
   const button = /** @type {HTMLButtonElement} */ (element("choose"));
   const run = new JobRun(element("choice-run"), jobs, "Choosing sites");
   button.addEventListener("click", async () => {
-    const cell = Number(scene.state.options.cell);
+    const [cell, count] = [Number(scene.state.options.cell), Number(field("site-count"))];
     scene.change({ plan: null });
-    const job = await run.run(() => siteCall(scene));
-    if (job) scene.change({ plan: await planOf(job, cell) });
+    /** @type {import("./served_form.js").Asked | null} */
+    let asked = null;
+    const job = await run.run(async () => {
+      const wanted = await siteCall(world);
+      asked = wanted.asked;
+      return wanted.call;
+    });
+    if (job && asked) scene.change({ plan: await planOf(job, { cell, asked, wanted: count }) });
   });
   element("plan-back").addEventListener("click", () => putBack(scene));
   element("plan-keep").addEventListener("click", () => keepAsMasts(scene));
-  scene.on(["search"], () => run.forgive());
+  scene.on(["search", "served"], () => run.forgive());
   scene.on(["plan"], () => showPlan(scene));
   views.onChange(() => showNow(scene, views));
 }
@@ -90,21 +106,28 @@ function keepAsMasts(scene) {
 
 /** @param {Scene} scene */
 function showPlan(scene) {
-  const { plan, options } = scene.state;
+  const { plan } = scene.state;
   element("plan").hidden = !plan;
   if (!plan) return;
-  element("plan-sum").textContent = sumText(plan, Number(options.radius));
+  element("plan-sum").textContent = sumText(plan);
   const most = Math.max(...plan.sites.map(({ gain }) => gain));
   element("plan-sites").replaceChildren(...plan.sites.map((site, i) => siteItem(scene, site, i, most)));
 }
 
-/** @param {Plan} plan @param {number} radius */
-function sumText({ sites, result: { value, demand, gap, cell } }, radius) {
+/** So much of what is served, in its own unit. @param {number} value @param {Plan["result"]} result */
+function amountText(value, { cell, asked }) {
+  return asked.unit === "ground" ? areaText(value * cell ** 2) : countedText(value, asked.unit);
+}
+
+/** @param {Plan} plan */
+function sumText({ sites, result }) {
+  const { value, demand, gap, asked, wanted } = result;
+  const all = sites.length < wanted ? ` ${wanted} were asked for: one more would add nothing.` : "";
   const one = sites.length === 1;
   const proof = gap > 0 ? `No choice serves more than ${numberText(gap, 1)} % beyond that` : "No choice serves more";
   return (
-    `${one ? "The site serves" : `The ${sites.length} sites serve`} ${areaText(value * cell ** 2)}, ` +
-    `${shareText(value, demand)} of what lies within ${radius / 1000} km of a candidate. ${proof}.`
+    `${one ? "The site serves" : `The ${sites.length} sites serve`} ${amountText(value, result)}: ` +
+    `${shareText(value, demand)} of ${asked.what} (${amountText(demand, result)}). ${proof}.${all}`
   );
 }
 
@@ -120,7 +143,7 @@ function siteItem(scene, site, place, most) {
   button.append(
     make("span", "dot", String(place + 1)),
     make("span", "mast-name", site.name),
-    make("span", "site-gain", `${isMoved(site) ? "moved; added" : "adds"} ${areaText(site.gain * result.cell ** 2)}`),
+    make("span", "site-gain", `${isMoved(site) ? "moved; added" : "adds"} ${amountText(site.gain, result)}`),
     make("span", "site-bar"),
   );
   button.addEventListener("click", () => selectSite(scene, site.id));
@@ -138,19 +161,38 @@ function showNow(scene, views) {
   const sources = sourcesOf(scene, views);
   /** @type {HTMLButtonElement} */ (element("plan-back")).disabled = moved.length === 0;
   if (error || sources.length < plan.sites.length) {
-    now.textContent = error ?? "";
+    now.textContent = inPageWords(error ?? "");
     return;
   }
-  const served = tally(sources, (verdict) => verdict === VISIBLE).any * sources[0].cells.cell ** 2;
-  const before = plan.result.value * plan.result.cell ** 2;
+  const what = plan.result.asked.unit === "ground" ? "" : ` ${plan.result.asked.unit}s`;
+  const served = servedNow(plan, sources);
+  if (served === null) {
+    now.textContent = moved.length === 0 ? "" : `Choose sites again to see how many${what} these serve.`;
+    return;
+  }
+  // What the map tells of places is that of their cells: what is compared is told alike.
+  const exact = plan.result.asked.unit === "ground";
+  if (moved.length === 0) shownOfChoice.set(plan.result, served);
+  const before = exact ? plan.result.value : (shownOfChoice.get(plan.result) ?? plan.result.value);
   now.textContent =
     moved.length === 0
       ? "Drag a site, or select one and click another candidate, to see what that costs."
-      : `Now ${areaText(served)}: ${changeText(served - before, before)} the choice.`;
+      : `Now ${exact ? "" : "about "}${amountText(served, plan.result)}: ${changeText(served - before, before, plan.result)} the choice.`;
 }
 
-/** @param {number} change @param {number} before */
-function changeText(change, before) {
+/** What the map shows of each choice as it was made. @type {WeakMap<Plan["result"], number>} */
+const shownOfChoice = new WeakMap();
+
+/** How much the sites serve where they stand now; null where the page cannot tell.
+ * @param {Plan} plan @param {import("../seen/picture.js").Source[]} sources */
+function servedNow({ result: { asked } }, sources) {
+  const serves = (/** @type {number} */ verdict) => verdict === VISIBLE;
+  if (asked.points) return countServed(asked.points, sources, serves);
+  return asked.unit === "ground" ? tally(sources, serves).any : null;
+}
+
+/** @param {number} change @param {number} before @param {Plan["result"]} result */
+function changeText(change, before, result) {
   if (change === 0) return "as much as";
-  return `${areaText(Math.abs(change))} (${shareText(Math.abs(change), before)}) ${change < 0 ? "less" : "more"} than`;
+  return `${amountText(Math.abs(change), result)} (${shareText(Math.abs(change), before)}) ${change < 0 ? "less" : "more"} than`;
 }

@@ -1,17 +1,20 @@
 // What is planned: masts, wind turbines, a choice of sites, or the buildings that masts serve.
 
 import { element } from "../panel/elements.js";
-import { messageOf } from "../panel/words.js";
+import { problemText } from "../panel/page_words.js";
 
 /** @typedef {import("../state/scene.js").Scene} Scene */
 /** @typedef {import("../state/scene.js").Task} Task */
 
-const BUILDINGS = "buildings";
+const OF_BUILDINGS = ["buildings", "terraces"];
+
+/** Whether the store has buildings. @param {import("../server/api.js").Info} info */
+export const hasBuildings = (info) => info.themes.some(({ kind }) => OF_BUILDINGS.includes(kind));
 
 /** @param {Scene} scene @param {import("../server/api.js").Info} info */
 export function makeTasksForm(scene, info) {
   const inputs = /** @type {HTMLInputElement[]} */ ([...element("tasks").querySelectorAll("input")]);
-  element("premises-task").hidden = !info.themes.some(({ kind }) => kind === BUILDINGS);
+  element("premises-task").hidden = !hasBuildings(info);
   for (const input of inputs) {
     input.addEventListener("change", () => {
       scene.change({ task: /** @type {Task} */ (input.value), placing: false });
@@ -34,7 +37,7 @@ export function takeFiles(id, problem, take) {
       await take(file);
     } catch (error) {
       // The planner knows the file by its own name.
-      problem.textContent = messageOf(error).replace(/upload-\d+\.\w+/g, file.name);
+      problem.textContent = problemText(error).replace(/upload-\d+\.\w+/g, file.name);
     }
   };
   input.addEventListener("change", () => {

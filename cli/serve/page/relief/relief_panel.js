@@ -1,7 +1,8 @@
 // The 3-D view over the map: opened by a button, which loads what draws it; it follows what the map shows.
 
 import { element } from "../panel/elements.js";
-import { messageOf, metresText } from "../panel/words.js";
+import { problemText } from "../panel/page_words.js";
+import { metresText } from "../panel/words.js";
 import { HUES } from "../seen/palette.js";
 import { middleSeen } from "../seen/middle_seen.js";
 import { shownOf } from "../seen/shown.js";
@@ -101,7 +102,7 @@ class ReliefPanel {
       this.#turn(false);
       element("relief-picture").focus();
     } catch (problem) {
-      this.#said.textContent = `The 3-D view cannot be shown: ${messageOf(problem)}`;
+      this.#said.textContent = `The 3-D view cannot be shown: ${problemText(problem)}`;
     }
   }
 

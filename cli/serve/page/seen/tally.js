@@ -40,3 +40,13 @@ export function tally(sources, sees = inSight) {
   }
   return counts;
 }
+
+/** How many places lie in a cell that any mast serves. @param {{x: number, y: number}[]} places @param {Source[]} sources
+ * @param {(verdict: number) => boolean} serves */
+export const countServed = (places, sources, serves) =>
+  places.filter(({ x, y }) =>
+    sources.some(({ cells }) => {
+      const at = cells.at(x, y);
+      return at >= 0 && serves(cells.codes[at] & VERDICT);
+    }),
+  ).length;

@@ -6,7 +6,8 @@
  * @property {string} crs @property {string} crs_name
  * @property {{xmin: number, ymin: number, xmax: number, ymax: number}} bounds
  * @property {number | null} data_spacing_m
- * @property {{name: string, kind: string, features: number}[]} themes
+ * @property {{name: string, kind: string, features: number, left_out?: number}[]} themes
+ *   `left_out` are features of the import that do not stand.
  * @property {{tolerance_m: number, query_vertices: number}[]} levels  The finest first.
  * @property {string[]} modes
  * @property {{origin: [number, number], size: number, border: number, resolutions: number[], themes: string[]}} tiles
@@ -42,13 +43,12 @@ async function ask(path, request) {
 /** @returns {Promise<Info>} */
 export const askInfo = () => ask("/api/v1/info");
 
+/** @typedef {{x: number, y: number, lon: number | null, lat: number | null, grid_reference: string | null,
+ *    ground_m: number | null}} KnownPlace */
+
 /** Understands a place as the command line does: easting,northing, degrees with N, S, E or W, or a grid reference.
- * @param {string} text @returns {Promise<{x: number, y: number}>} */
-export async function askPlace(text) {
-  const end = encodeURIComponent(text);
-  const { from } = await ask(`/api/v1/los?from=${end}&to=${end}`);
-  return { x: from.x, y: from.y };
-}
+ * @param {string} text @returns {Promise<KnownPlace>} */
+export const askPlace = (text) => ask(`/api/v1/place?at=${encodeURIComponent(text)}`);
 
 export class Jobs {
   /** @param {string} key */

@@ -14,7 +14,7 @@ import { MOST_TURBINES } from "./turbines.js";
 
 const OF_THE_PAGE = [
   ...["task", "mast", "selected", "show", "target", "relief", "contours", "draw", "at"],
-  ...["turbine", "part", "viewpoint", "area"],
+  ...["turbine", "part", "viewpoint", "area", "served"],
 ];
 const TASKS = ["masts", "turbines", "sites", "premises"];
 const SHOWS = ["together", "alone", "difference"];
@@ -39,11 +39,13 @@ export function addressOf(state) {
 }
 
 /** What is planned beside masts. @param {SceneState} state @param {URLSearchParams} fields */
-function addPlans({ turbines, part, viewpoint, search }, fields) {
+function addPlans({ turbines, part, viewpoint, search, served }, fields) {
   for (const { x, y, hub, tip, name } of turbines) fields.append("turbine", [x, y, hub ?? "", tip, name].join(","));
   if (part !== "tips") fields.set("part", part);
   if (viewpoint) fields.set("viewpoint", `${viewpoint.x},${viewpoint.y}`);
   if (search && "ring" in search) fields.set("area", search.ring.join(","));
+  if (served.kind === "area" && served.ring) fields.set("served", served.ring.join(","));
+  if (served.kind === "view" || served.kind === "premises") fields.set("served", served.kind);
 }
 
 /** @param {string} text @param {number} count @returns {number[] | null} that many numbers, or null */
@@ -75,6 +77,13 @@ function readArea(text) {
   return ring && ring.length >= 6 && ring.length % 2 === 0 ? { ring } : null;
 }
 
+/** @param {string} text @returns {import("./served.js").Served} */
+function readServed(text) {
+  if (text === "view" || text === "premises") return { kind: text };
+  const area = readArea(text);
+  return area ? { kind: "area", ...area } : { kind: "reach" };
+}
+
 /** @param {URLSearchParams} fields @returns {Partial<SceneState>} */
 function readPlans(fields) {
   const turbines = fields.getAll("turbine").slice(0, MOST_TURBINES).flatMap(readTurbine);
@@ -85,6 +94,7 @@ function readPlans(fields) {
     part: fields.get("part") === "hubs" ? "hubs" : "tips",
     viewpoint: viewpoint && { x: viewpoint[0], y: viewpoint[1] },
     search: readArea(fields.get("area") ?? ""),
+    served: readServed(fields.get("served") ?? ""),
   };
 }
 

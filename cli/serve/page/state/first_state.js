@@ -33,6 +33,8 @@ export function firstState(info) {
     part: "tips",
     viewpoint: null,
     search: null,
+    served: { kind: "reach" },
+    drawing: "search",
     plan: null,
   };
 }

@@ -9,7 +9,9 @@
  * @property {Site[]} sites        In the order of the choice; where each stands now.
  * @property {number} selected     The id of a site.
  * @property {Place[]} candidates  Where else they may stand.
- * @property {{value: number, demand: number, gap: number, cell: number}} result
+ * @property {{value: number, demand: number, gap: number, cell: number, wanted: number,
+ *   asked: import("../plan/served_form.js").Asked}} result  Counts of cells, or of what else was to be served; `wanted`
+ *   is the number of sites that were asked for.
  */
 /** @typedef {import("../server/api.js").UploadedPlace} UploadedPlace */
 /** @typedef {{ring: number[]} | {file: string, upload: string, places: UploadedPlace[], rings: number[][]}} Search

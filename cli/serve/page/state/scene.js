@@ -24,6 +24,8 @@
  * @property {"tips" | "hubs"} part    What of the turbines is counted.
  * @property {Place | null} viewpoint  Where a wireline is seen from.
  * @property {import("./plan.js").Search | null} search  Where sites are looked for.
+ * @property {import("./served.js").Served} served       What sites are to serve.
+ * @property {"search" | "served"} drawing  Of which of these two an area is drawn.
  * @property {import("./plan.js").Plan | null} plan      The sites that were chosen.
  */
 

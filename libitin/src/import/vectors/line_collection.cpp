@@ -57,17 +57,33 @@ const GridPoint* vertex_at(const RaisedPart& part, Position p) {
   return at != part.vertices.end() ? &*at : nullptr;
 }
 
-/// Returns the footprints in an order that knows no order of import, for where features meet, the order decides.
-std::vector<StoredFootprint> in_order_of_content(const std::vector<StoredFootprint>& footprints) {
+/// Returns the numbers of the footprints in an order that knows no order of import, for where features meet, the order
+/// decides.
+std::vector<std::size_t> order_of_content(const std::vector<StoredFootprint>& footprints) {
   std::vector<std::pair<std::string, std::size_t>> order;
   for (std::size_t i = 0; i < footprints.size(); ++i) {
     const std::vector<std::uint8_t> content = content_of(footprints[i].feature);
     order.emplace_back(std::string(content.begin(), content.end()), i);
   }
   std::sort(order.begin(), order.end());
-  std::vector<StoredFootprint> result;
-  for (const auto& [content, i] : order) result.push_back(footprints[i]);
+  std::vector<std::size_t> result;
+  for (const auto& [content, i] : order) result.push_back(i);
   return result;
+}
+
+/// Returns ascending runs of the numbers `order[place]`.
+std::vector<FeatureRun> runs_of(const std::vector<std::size_t>& places, const std::vector<std::size_t>& order) {
+  std::vector<std::int64_t> numbers;
+  for (const std::size_t place : places) numbers.push_back(static_cast<std::int64_t>(order[place]));
+  std::sort(numbers.begin(), numbers.end());
+  std::vector<FeatureRun> runs;
+  for (const std::int64_t number : numbers) {
+    if (!runs.empty() && runs.back().last + 1 == number)
+      runs.back().last = number;
+    else
+      runs.push_back({number, number});
+  }
+  return runs;
 }
 
 }  // namespace
@@ -267,9 +283,12 @@ void LineCollection::raise(const Store& ground, RaisedFeaturesReport& report, Pr
     CollectedTheme& theme = themes_[t];
     if (theme.footprints.empty()) continue;
     const double wall_offset = theme.info.wall_offset.value_or(default_wall_offset(ground.metadata().grid));
-    RaisedFeatureTheme raised =
-        raise_theme(ground, in_order_of_content(theme.footprints), wall_offset, memory_bytes_, progress);
+    const std::vector<std::size_t> order = order_of_content(theme.footprints);
+    std::vector<StoredFootprint> footprints;
+    for (const std::size_t i : order) footprints.push_back(theme.footprints[i]);
+    RaisedFeatureTheme raised = raise_theme(ground, footprints, wall_offset, memory_bytes_, progress);
     theme.info.features = raised.built;
+    theme.info.left_out = runs_of(raised.left_out, order);
     report.features += raised.built;
     report.refused += raised.refused;
     report.themes.push_back({theme.info.name, raised.built, std::move(raised.reports)});

@@ -34,6 +34,7 @@
 #include "workflows/dwellings/sights_in_season.hpp"
 #include "workflows/dwellings/sun_reach.hpp"
 #include "workflows/premises/each_building.hpp"
+#include "workflows/premises/premises_rules.hpp"
 #include "workflows/zone/study_document.hpp"
 
 namespace itin::viewshed {
@@ -136,6 +137,8 @@ class DwellingsSurveyor {
   void choose() {
     const Box all = survey_.metadata.grid.box(survey_.metadata.bounds);
     const auto feet = building_feet(store_, survey_.request.themes, all);
+    if (survey_.request.dwellings.places.empty())
+      warn_of_left_out(survey_.metadata, survey_.request.themes, survey_.warnings);
     survey_.dwellings = choose_dwellings(survey_.request, survey_.metadata, feet, progress_);
   }
 

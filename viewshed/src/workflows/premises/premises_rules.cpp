@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <itin/counted.hpp>
 #include <itin/error.hpp>
 #include <itin/in_ring.hpp>
 
@@ -28,6 +29,15 @@ void complete_antennas(AntennaPlaces& antennas, std::optional<double> frequency_
           "with a `frequency_ghz` give a height above 0: no link from the roof is clear");
 }
 
+void warn_of_left_out(const StoreMetadata& metadata, const ThemeChoice& themes, std::vector<std::string>& warnings) {
+  for (const ThemeInfo& theme : metadata.themes) {
+    if (!is_of_buildings(theme) || !themes.includes(theme) || theme.left_out.empty()) continue;
+    const std::uint64_t count = theme.left_out_count();
+    warnings.push_back(fmt::format("{} not counted: the import of theme '{}' left {} out", counted(count, "building"),
+                                   theme.name, count == 1 ? "it" : "them"));
+  }
+}
+
 void require_buildings(const StoreMetadata& metadata, const ThemeChoice& themes, std::vector<std::string>& warnings) {
   const ThemeChoice named = themes.with_ground_lines();
   std::vector<std::string> flat;
@@ -41,6 +51,7 @@ void require_buildings(const StoreMetadata& metadata, const ThemeChoice& themes,
   if (raised && !flat.empty())
     warnings.push_back(
         fmt::format("buildings of {} have no heights and are left out; {}", fmt::join(flat, ", "), kWhatToDo));
+  warn_of_left_out(metadata, themes, warnings);
   if (raised) return;
   if (!flat.empty())
     throw InputError(fmt::format("`themes`: buildings of {} have no heights; {}", fmt::join(flat, ", "), kWhatToDo),

@@ -16,7 +16,10 @@ namespace itin::viewshed {
 /// Checks the places of antennas, and sorts their poles; with a frequency leaves out poles of 0. Throws InputError.
 void complete_antennas(AntennaPlaces& antennas, std::optional<double> frequency_ghz);
 
-/// Checks that the chosen buildings stand on the ground. Warns of those of some themes that do not. Throws InputError.
+/// Warns of buildings of the chosen themes that the import left out.
+void warn_of_left_out(const StoreMetadata& metadata, const ThemeChoice& themes, std::vector<std::string>& warnings);
+
+/// Checks that the chosen buildings stand on the ground. Warns of those that do not. Throws InputError.
 void require_buildings(const StoreMetadata& metadata, const ThemeChoice& themes, std::vector<std::string>& warnings);
 
 /// Returns the rules for the places of a building.
