@@ -38,9 +38,9 @@ struct BuildingFoot {
   std::vector<std::vector<Point2>> rings;  ///< closed, of any orientation; read by the even-odd rule
 };
 
-/// Returns the buildings and terraces of the chosen themes that stand and meet the box, in the order of themes and of import. For
-/// a building with measured roofs but no footprint, the rings are those of its roof planes. Costs and errors are those
-/// of building_outlines().
+/// Returns the buildings and terraces of the chosen themes that stand and meet the box, in the order of themes and of
+/// import. For a building with measured roofs but no footprint, the rings are those of its roof planes. Costs and
+/// errors are those of building_outlines().
 std::vector<BuildingFoot> building_feet(const Store& store, const ThemeChoice& themes, const Box& box);
 
 }  // namespace itin

@@ -41,7 +41,8 @@ std::string crs_urn(const std::string& crs_wkt) {
   const std::unique_ptr<OGRSpatialReference> match(understood ? crs.FindBestMatch(90, "EPSG") : nullptr);
   const char* code = match ? match->GetAuthorityCode(nullptr) : nullptr;
   if (!code)
-    throw InputError("GeoJSON names a CRS by its EPSG code, and the store's CRS has none; write .gpkg in place of .geojson");
+    throw InputError(
+        "GeoJSON names a CRS by its EPSG code, and the store's CRS has none; write .gpkg in place of .geojson");
   return std::string("urn:ogc:def:crs:EPSG::") + code;
 }
 

@@ -81,9 +81,8 @@ std::vector<std::string> warnings_of(const ZoneStudy& study) {
 }  // namespace
 
 ZoneStudy study_zone(const Store& store, ZoneStudyRequest request, Progress& progress) {
-  return study_zone_by(
-      [&](const ZoneRequest& zone) { return survey_turbines(store, zone, progress); }, store, std::move(request),
-      progress);
+  return study_zone_by([&](const ZoneRequest& zone) { return survey_turbines(store, zone, progress); }, store,
+                       std::move(request), progress);
 }
 
 std::unique_ptr<ZoneTasks> tasks_of_study(const Store& store, ZoneStudyRequest request, std::uint64_t most_cells,
