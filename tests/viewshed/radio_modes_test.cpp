@@ -179,7 +179,9 @@ class RadioModes : public ::testing::Test {
       const float level = levels.level_dbm[cell];
       ASSERT_TRUE(level == greatest || (std::isnan(level) && std::isnan(greatest)));
       ASSERT_EQ(levels.observer[cell] == 0, std::isnan(level));
-      if (levels.observer[cell] > 0) ASSERT_EQ(each[levels.observer[cell] - 1].get<Levels>().level_dbm[cell], level);
+      if (levels.observer[cell] > 0) {
+        ASSERT_EQ(each[levels.observer[cell] - 1].get<Levels>().level_dbm[cell], level);
+      }
     }
   }
 
