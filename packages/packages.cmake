@@ -86,7 +86,7 @@ endif()
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME itin)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "${late_packages}, fonts-dejavu-core")
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "python3-itin, xdg-utils")
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "python3-itin, python3-distributed, xdg-utils")
 set(CPACK_DEBIAN_PROGRAM_DESCRIPTION "viewsheds, lines of sight and sites for masts over real terrain
 itin computes what can be seen from where over real terrain, with buildings
 and trees: viewsheds, lines of sight, radio links, zones of visibility of
