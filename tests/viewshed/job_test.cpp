@@ -86,7 +86,6 @@ TEST_F(Job, IsDoneByManyRunnersOnce) {
     return "answer " + std::to_string(task);
   });
   create(tasks);
-  // Threads of one process share a name, and so their claims: tasks are told twice now and then, which does no harm.
   std::atomic<std::size_t> answered = 0;
   std::vector<std::thread> runners;
   for (std::size_t part = 1; part <= 4; ++part)
