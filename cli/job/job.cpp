@@ -43,7 +43,7 @@ class JobVerb final : public Verb {
     return "Divide a viewshed, a ztv or a visibility index among machines: plan, run, status, merge";
   }
   bool takes_call() const override { return true; }
-  void take_call(std::vector<std::string> call) override { call_ = std::move(call); }
+  void take_call(const std::vector<std::string>& call) override { call_ = call; }
 
   void declare(CLI::App& app) override {
     app_ = &app;

@@ -52,7 +52,7 @@ void replace_value(std::vector<std::string>& arguments, const std::string& value
   for (std::string& argument : arguments) {
     if (argument == value) argument = by;
     if (argument.starts_with("-") && argument.ends_with("=" + value))
-      argument = argument.substr(0, argument.size() - value.size()) + by;
+      argument.replace(argument.size() - value.size(), value.size(), by);
   }
 }
 

@@ -18,14 +18,10 @@
 
 #include <itin/document.hpp>
 #include <itin/error.hpp>
-#include <itin/gdal_ready.hpp>
 #include <itin/likely_meant.hpp>
-#include <itin/network.hpp>
-#include <itin/parallel.hpp>
 #include <viewshed/job.hpp>
 
 #include "program/call_error.hpp"
-#include "program/call_files.hpp"
 #include "program/field_names.hpp"
 #include "program/help.hpp"
 #include "program/help_document.hpp"

@@ -48,7 +48,7 @@ class Verb {
 
   /// Whether the arguments end with the call of another verb, which take_call() takes, its name first.
   virtual bool takes_call() const { return false; }
-  virtual void take_call(std::vector<std::string>) {}
+  virtual void take_call(const std::vector<std::string>&) {}
 };
 
 /// The head of every document: `itin`, and `command` with the verb and its parameters. To be called after execute().

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <itin/error.hpp>
+#include <itin/gdal_ready.hpp>
 #include <itin/network.hpp>
 #include <itin/parallel.hpp>
 

@@ -51,10 +51,10 @@ def test_every_guide_is_on_the_site() -> None:
 
 
 def test_names_of_blocks_are_those_that_are_run() -> None:
-    """A block is run (sh, python, cpp, cmake), or has no name where it only shows something."""
+    """A block is run (sh, bash by bindings/dask/tests, python, cpp, cmake), or has no name where it only shows."""
     for page in PAGES:
         opened = re.findall(r"^```(.*)$", page.read_text(), re.MULTILINE)[::2]
-        assert set(opened) <= {"", "sh", "python", "cpp", "cmake"}, page
+        assert set(opened) <= {"", "sh", "bash", "python", "cpp", "cmake"}, page
 
 
 def test_blocks_in_cpp_and_cmake_are_of_pages_that_are_compiled() -> None:
