@@ -51,7 +51,7 @@ class PlannedCall {
  private:
   std::vector<std::string> arguments_;
   std::string store_;
-  FileStamp stamp_;  ///< of the store
+  FileStamp stamp_;  ///< the store's
   std::uint64_t most_cells_;
   VerbCall dividing_, executing_;
 };

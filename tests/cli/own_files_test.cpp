@@ -116,7 +116,7 @@ TEST_P(OwnFiles, AreNeverWrittenOver) {
 
 std::vector<std::string> verbs() {
   return {"import",  "info", "check", "tin",      "viewshed",  "visibility", "ztv",
-          "profile", "los",  "site",  "premises", "dwellings", "serve"};
+          "profile", "los",  "site",  "premises", "dwellings", "job",        "serve"};
 }
 
 INSTANTIATE_TEST_SUITE_P(Verbs, OwnFiles, ::testing::ValuesIn(verbs()), [](const auto& verb) { return verb.param; });

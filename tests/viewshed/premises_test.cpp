@@ -452,7 +452,7 @@ TEST_F(PremisesSurveys, DoNotDependOnTheMemory) {
   PremisesRequest request;
   request.masts.places = {mast("a", 321590, 4297655, 12), mast("b", 321900, 4297850, 8),
                           mast("c", 321790, 4297662, 18)};
-  request.spacing = 3, request.radius = 120;
+  request.spacing = 3, request.radius = 200;
   const PremisesSurvey all = survey(request);
   request.memory_bytes = 1;
   const PremisesSurvey parts = survey(request);

@@ -1,9 +1,9 @@
 // Values written one after the other as bytes, and read back, on machines with the same order of bytes.
 //
-//   ByteWriter writer;
+//   ValueWriter writer;
 //   exchange_fields(writer, result);                 // exchange_fields() names every field once, for both directions:
 //   ...                                       //   template <class Archive, class R>
-//   ByteReader reader(bytes);                 //   void exchange_fields(Archive& archive, R& r) { archive(r.count,
+//   ValueReader reader(bytes);                 //   void exchange_fields(Archive& archive, R& r) { archive(r.count,
 //   r.names); } exchange_fields(reader, result); reader.expect_end();
 #pragma once
 
@@ -17,7 +17,7 @@
 
 namespace itin {
 
-/// The bytes are not those that a ByteWriter has written of these values.
+/// The bytes are not those that a ValueWriter has written of these values.
 struct NotThoseValues : std::runtime_error {
   NotThoseValues() : std::runtime_error("other bytes than those of these values") {}
 };
@@ -31,7 +31,7 @@ concept Exchangeable = requires(Archive& archive, T& value) {
   exchange_fields(archive, value);
 };
 
-class ByteWriter {
+class ValueWriter {
  public:
   template <class... Values>
   void operator()(const Values&... values) {
@@ -46,7 +46,7 @@ class ByteWriter {
   }
   void put(const std::string& v) { put_all(v); }
   template <class T>
-  requires Exchangeable<const T, ByteWriter>
+  requires Exchangeable<const T, ValueWriter>
   void put(const T& v) { exchange_fields(*this, v); }
   template <class T>
   void put(const std::vector<T>& all) {
@@ -64,10 +64,10 @@ class ByteWriter {
 };
 
 /// Throws NotThoseValues where the bytes end too early, or do not end where they should.
-class ByteReader {
+class ValueReader {
  public:
   /// The bytes must outlive the reader.
-  explicit ByteReader(std::string_view bytes) : bytes_(bytes) {}
+  explicit ValueReader(std::string_view bytes) : bytes_(bytes) {}
 
   template <class... Values>
   void operator()(Values&... values) {
@@ -84,7 +84,7 @@ class ByteReader {
   }
   void get(std::string& v) { get_all(v); }
   template <class T>
-  requires Exchangeable<T, ByteReader>
+  requires Exchangeable<T, ValueReader>
   void get(T& v) { exchange_fields(*this, v); }
   template <class T>
   void get(std::vector<T>& all) {

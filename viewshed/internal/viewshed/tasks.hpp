@@ -26,10 +26,10 @@ namespace itin::viewshed {
 
 /// What a task decides, and about what that takes.
 struct Task {
-  RasterGrid::Cell north_west;  ///< of a rectangle of the whole grid's cells
+  RasterGrid::Cell north_west;  ///< where its rectangle begins in the whole grid
   std::int64_t columns = 0, rows = 0;
   std::uint64_t eyes = 0;    ///< observers, or turbines, that are looked at from its cells
-  double seconds = 0;        ///< of one thread
+  double seconds = 0;        ///< about how long it takes one thread
   std::uint64_t points = 0;  ///< points of the surface under its sight lines
 
   std::uint64_t cells() const { return static_cast<std::uint64_t>(columns * rows); }

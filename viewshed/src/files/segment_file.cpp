@@ -57,13 +57,13 @@ constexpr std::uint64_t kKind = 0x31'74'6e'65'6d'67'65'73;
 }  // namespace
 
 std::string segment_bytes(const Result& result) {
-  ByteWriter writer;
+  ValueWriter writer;
   exchange_result(writer, result);
   return writer.bytes();
 }
 
 Result segment_result(std::string_view bytes, const Plan& plan, std::size_t segment) {
-  ByteReader reader(bytes);
+  ValueReader reader(bytes);
   Result result;
   result.values = values_outside(plan.request(), 0);
   exchange_result(reader, result);
@@ -74,7 +74,7 @@ Result segment_result(std::string_view bytes, const Plan& plan, std::size_t segm
 }
 
 void write_segment(const std::string& path, const Plan& plan, std::size_t segment, const Result& result) {
-  ByteWriter writer;
+  ValueWriter writer;
   writer(kKind, plan.id(), std::uint64_t{segment}, segment_bytes(result));
   write_packed(path, writer.bytes());
 }
@@ -84,7 +84,7 @@ Result read_segment(const std::string& path, const Plan& plan, std::size_t segme
   std::uint64_t kind = 0, id = 0, number = 0;
   std::string bytes;
   try {
-    ByteReader reader(file);
+    ValueReader reader(file);
     reader(kind, id, number);
     if (kind != kKind) throw NotThoseValues();
     if (id != plan.id()) throw InputError(fmt::format("{}: is a segment of another plan", path));

@@ -31,8 +31,8 @@ struct IndexCounts {
 };
 
 struct IndexPart {
-  CellRectangle cells;  ///< of the whole grid
-  IndexShares shares;   ///< of these cells, row by row
+  CellRectangle cells;  ///< which cells of the whole grid it has
+  IndexShares shares;   ///< what these have, row by row
   IndexCounts counts = {};
 };
 

@@ -61,13 +61,13 @@ std::string name_of(const std::string& job, std::size_t task) {
 }
 
 /// All that a task is, in words that are equal for equal tasks.
-std::string text_of(const Task& t) {
+std::string words_of(const Task& t) {
   return fmt::format("{},{} {}x{} {}", t.north_west.column, t.north_west.row, t.columns, t.rows, t.eyes);
 }
 
-std::string text_of(const std::vector<Task>& tasks) {
+std::string words_of(const std::vector<Task>& tasks) {
   std::string text;
-  for (const Task& task : tasks) text += text_of(task) + "\n";
+  for (const Task& task : tasks) text += words_of(task) + "\n";
   return text;
 }
 
@@ -153,7 +153,7 @@ void JobFolder::create(const std::string& path, Document document, const Tasks& 
   const fs::path parent = fs::absolute(path).parent_path();
   if (!fs::is_directory(parent, ignored))
     throw FileError(path, "its parent folder does not exist; create it or name another place");
-  const std::string plan = text_of(tasks.list());
+  const std::string plan = words_of(tasks.list());
   document["format"] = kFormat;
   document["tasks"] = tasks.list().size();
   document["plan"] = hexadecimal(content_hash(plan));
@@ -194,7 +194,8 @@ JobFolder::JobFolder(std::string path) : path_(std::move(path)) {
 }
 
 void JobFolder::require_same(const Tasks& tasks) const {
-  if (tasks.list().size() != count() || document_.value("plan", "") != hexadecimal(content_hash(text_of(tasks.list()))))
+  if (tasks.list().size() != count() ||
+      document_.value("plan", "") != hexadecimal(content_hash(words_of(tasks.list()))))
     throw JobError(JobEnd::kRefused, path_ +
                                          ": this program divides the question into other tasks than those of the job; "
                                          "run the program that planned it, or plan it anew");
@@ -227,7 +228,7 @@ std::string JobFolder::answer(std::size_t task) const {
   std::uint64_t kind = 0;
   std::string name, answer;
   try {
-    ByteReader reader(file);
+    ValueReader reader(file);
     reader(kind, name, answer);
     reader.expect_end();
   } catch (const NotThoseValues&) {
@@ -239,7 +240,7 @@ std::string JobFolder::answer(std::size_t task) const {
 
 void JobFolder::seal(std::size_t task, const std::string& answer, const std::function<void()>& guard) const {
   const std::string written = name_path("tmp", task) + "." + runner_name();
-  ByteWriter writer;
+  ValueWriter writer;
   writer(kAnswer, names_.at(task), answer);
   Placed placed = Placed::kPlaced;
   try {
@@ -351,7 +352,7 @@ void JobFolder::remove_stale_claims(double patience) const {
     const std::string path = path_ + "/claims/" + name;
     const auto task = task_of(name);
     const auto touched = touched_at(path);
-    // Of several who see it, the one that removes it notes it.
+    // The one of several that removes it notes it.
     if (!task || !touched || now - *touched <= patience || ::unlink(path.c_str()) != 0) continue;
     if (is_done(*task)) continue;
     const std::string failed = name_path("failed", *task);

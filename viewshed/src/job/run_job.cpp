@@ -83,7 +83,7 @@ class Runner {
       throw;
     } catch (const std::bad_alloc&) {
       throw JobError(JobEnd::kTryAgain,
-                     fmt::format("task {}: out of memory; free some, or plan with less --memory", task));
+                     fmt::format("task {}: out of memory; free some, or plan the job with less `memory_bytes`", task));
     } catch (const InputError& error) {
       return fail(task, error, true);
     } catch (const Error& error) {

@@ -117,7 +117,13 @@ std::shared_ptr<const VoidShadow> shadow_of(const Eye& eye, const std::vector<Ri
 }
 
 bool may_cross_voids(const Grid& units, const std::vector<RimEdge>& rim, Point2 position, double radius) {
-  return surface_resumes(units, rim, position, radius, hull_about(position, square_about(position, radius)));
+  return may_cross_voids(units, rim, position, radius, square_about(position, radius));
+}
+
+bool may_cross_voids(const Grid& units, const std::vector<RimEdge>& rim, Point2 position, double radius,
+                     const Box& ends) {
+  const Box within = intersection(ends, square_about(position, radius));
+  return surface_resumes(units, rim, position, radius, hull_about(position, within));
 }
 
 void find_voids(const Grid& units, const std::vector<RimEdge>& rim, Result& result) {

@@ -69,6 +69,9 @@ std::shared_ptr<const VoidShadow> shadow_of(const Eye& eye, const std::vector<Ri
 
 /// Tells whether a sight line from the position to a place within the radius, metres, may cross ground without data.
 bool may_cross_voids(const Grid& units, const std::vector<RimEdge>& rim, Point2 position, double radius);
+/// Tells the same of lines to places in the box alone; the surface need not reach beyond these.
+bool may_cross_voids(const Grid& units, const std::vector<RimEdge>& rim, Point2 position, double radius,
+                     const Box& ends);
 /// Finds out whether sight lines of the result's request may cross ground without data. `rim` is where the surface
 /// ends, in these units.
 void find_voids(const Grid& units, const std::vector<RimEdge>& rim, Result& result);

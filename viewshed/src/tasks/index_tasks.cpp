@@ -47,7 +47,7 @@ IndexTasks::IndexTasks(const Store& store, const IndexRequest& request, std::uin
 IndexTasks::~IndexTasks() = default;
 
 std::string IndexTasks::answer(std::size_t task, Progress& progress) const {
-  ByteWriter writer;
+  ValueWriter writer;
   const IndexPart part = index_part(store_, request_, grid_, cells_of(list_.at(task)), progress);
   exchange_part(writer, part);
   return writer.bytes();
@@ -55,7 +55,7 @@ std::string IndexTasks::answer(std::size_t task, Progress& progress) const {
 
 void IndexTasks::add(std::size_t task, std::string_view answer) {
   IndexPart part{cells_of(list_.at(task)), {}};
-  ByteReader reader(answer);
+  ValueReader reader(answer);
   exchange_part(reader, part);
   reader.expect_end();
   for (const auto* values : {&part.shares.share, &part.shares.standard_error, &part.shares.undecided})

@@ -80,7 +80,7 @@ class Copies {
   const RasterGrid& whole_;
 };
 
-Box box_of(const RasterGrid& grid, const CellRectangle& cells) {
+Box box_of_cells(const RasterGrid& grid, const CellRectangle& cells) {
   return grid.part({cells.column, cells.row}, cells.columns, cells.rows).bounds();
 }
 
@@ -96,7 +96,7 @@ ZoneTasks::ZoneTasks(const Store& store, const ZoneRequest& request, std::uint64
   const PointCounts points(store, level_within(store.metadata(), request.detail.coarsest()),
                            window_of(zone_->request).bounds());
   for (const CellRectangle& cells : task_rectangles(zone_->grid, most_cells)) {
-    const Box box = box_of(zone_->grid, cells);
+    const Box box = box_of_cells(zone_->grid, cells);
     const auto reached = turbines_of_study_area(zone_->request);
     if (!zone_->request.radar &&
         std::none_of(reached.begin(), reached.end(), [&](const Turbine& t) { return in_reach(t, box); }))
@@ -140,7 +140,7 @@ ZoneRequest ZoneTasks::request_of(std::size_t task) const {
 
 std::string ZoneTasks::answer(std::size_t task, Progress& progress) const {
   const Zone zone = survey_turbines(store_, request_of(task), progress);
-  ByteWriter writer;
+  ValueWriter writer;
   exchange_zone(writer, zone);
   return writer.bytes();
 }
@@ -153,7 +153,7 @@ void ZoneTasks::add(std::size_t task, std::string_view answer) {
   if (whole.screened) part.screened.emplace();
   if (whole.seasons) part.seasons.emplace();
   if (whole.radar) part.radar.emplace();
-  ByteReader reader(answer);
+  ValueReader reader(answer);
   exchange_zone(reader, part);
   reader.expect_end();
   const Copies copy(cells_of(list_.at(task)), whole.grid);

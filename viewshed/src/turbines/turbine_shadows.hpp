@@ -22,8 +22,9 @@ using TurbineShadows = std::vector<std::optional<VoidShadow>>;
 /// shadows then hold for the lines of that part.
 TurbineShadows shadows_of_turbines(const ExactScene& ground, const Zone& zone);
 
-/// Returns about the memory that the shadows of turbines take over ground with this rim; 0 where there are none.
-std::uint64_t bytes_of_shadows(const std::vector<Turbine>& turbines, const Grid& units,
+/// Returns about the memory that the shadows of turbines on cells in this box take, over ground with this rim; 0 where
+/// there are none.
+std::uint64_t bytes_of_shadows(const std::vector<Turbine>& turbines, const Box& cells, const Grid& units,
                                const std::vector<RimEdge>& rim);
 
 }  // namespace itin::viewshed

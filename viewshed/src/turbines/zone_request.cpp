@@ -70,7 +70,7 @@ void find_voids_of_zone(const Tin& outline, Zone& zone) {
   const ZoneRequest& request = zone.request;
   if (request.nodata == NoData::kClear) return;
   const std::vector<RimEdge> rim = rim_of(outline, boundary_edges(outline));
-  zone.shadow_bytes = bytes_of_shadows(request.turbines, outline.grid, rim);
+  zone.shadow_bytes = bytes_of_shadows(request.turbines, zone.grid.bounds(), outline.grid, rim);
   zone.crosses_voids = zone.shadow_bytes > 0;
   if (!zone.radar) return;
   Box ends = zone.grid.bounds();
