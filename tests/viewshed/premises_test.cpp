@@ -448,11 +448,13 @@ TEST_F(PremisesSurveys, AgreeWithEveryTriangleForEveryPlace) {
 }
 
 TEST_F(PremisesSurveys, DoNotDependOnTheMemory) {
-  test::import_alexandria(store_);
-  PremisesRequest request;
-  request.masts.places = {mast("a", 321590, 4297655, 12), mast("b", 321900, 4297850, 8),
-                          mast("c", 321790, 4297662, 18)};
-  request.spacing = 3, request.radius = 200;
+  PremisesRequest request = build_plain();
+  std::vector<test::LineFeature> houses;
+  for (int i = 0; i < 12; ++i) {
+    const double x = 300200 + 90 * i, y = 200250 + 130 * (i % 5);
+    houses.push_back(test::box(x, y, x + 14, y + 9, 5 + i % 4));
+  }
+  test::import_houses(store_, directory_.file("houses.geojson"), houses);
   const PremisesSurvey all = survey(request);
   request.memory_bytes = 1;
   const PremisesSurvey parts = survey(request);
