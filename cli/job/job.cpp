@@ -168,10 +168,7 @@ class JobVerb final : public Verb {
     if (run_.task && *run_.task >= job.count())
       throw InputError(fmt::format("--task {}: the job has the tasks 0 to {}", *run_.task, job.count() - 1));
     if (again_) job.forget_failures();
-    if (!stage_.empty()) {
-      const PlannedCall there(job, store_, progress);
-      store_ = staged_store(there.store(), stage_, progress);
-    }
+    if (!stage_.empty()) store_ = staged_store(store_of_job(job, store_, progress), stage_, progress);
     PlannedCall call(job, store_, progress);
     const auto tasks = call.divide(progress);
     const viewshed::RunReport report = viewshed::run_job(
@@ -191,17 +188,25 @@ class JobVerb final : public Verb {
                        failures.empty() ? "" : failures.front());
   }
 
+  struct NotDone {
+    std::vector<std::size_t> open, aside;
+  };
+  /// Tells in their order which of these tasks are open, and which are set aside.
+  static NotDone not_done(const JobFolder& job, const std::vector<std::size_t>& tasks) {
+    NotDone left;
+    for (const std::size_t task : tasks)
+      if (!job.is_done(task)) (job.is_set_aside(task) ? left.aside : left.open).push_back(task);
+    return left;
+  }
+
   // Status
 
   Result status() const {
     const JobFolder job(folder_);
-    std::vector<std::size_t> open, aside;
+    const auto [open, aside] = not_done(job, job.order());
     double left = 0;
-    for (const std::size_t task : job.order()) {
-      if (job.is_done(task)) continue;
-      (job.is_set_aside(task) ? aside : open).push_back(task);
-      left += job.seconds(task);
-    }
+    for (const auto* tasks : {&open, &aside})
+      for (const std::size_t task : *tasks) left += job.seconds(task);
     const std::vector<JobFolder::Claim> claims = job.claims(run_.patience_s);
     const double spent = job.seconds_spent();
     Result result;
@@ -258,11 +263,9 @@ class JobVerb final : public Verb {
   }
 
   void require_all_done(const JobFolder& job) const {
-    std::vector<std::size_t> open, aside;
-    for (std::size_t task = 0; task < job.count(); ++task) {
-      if (job.is_done(task)) continue;
-      (job.is_set_aside(task) ? aside : open).push_back(task);
-    }
+    std::vector<std::size_t> numbers = job.order();
+    std::sort(numbers.begin(), numbers.end());
+    const auto [open, aside] = not_done(job, numbers);
     if (!aside.empty()) throw Error(set_aside_text(job, aside));
     if (!open.empty())
       throw Error(fmt::format("{}: {} of {} not done, task {} first; itin job run {} answers them", folder_,

@@ -67,28 +67,6 @@ FileStamp stamp_of(const std::string& path) {
   return {status.st_ino, status.st_size, status.st_mtim.tv_sec, status.st_mtim.tv_nsec};
 }
 
-/// Returns the path of the store that the job is about.
-std::string find_store(const JobFolder& job, const std::string& given, Progress& progress) {
-  const Document& store = job.document()["store"];
-  std::vector<std::string> paths{store.value("name", ""), store.value("path", "")};
-  if (!given.empty()) paths = {given};
-  std::string other;
-  for (const std::string& path : paths) {
-    if (!is_file(path)) continue;
-    const Store opened(path);
-    if (viewshed::print_of(opened) == print_in(store)) return path;
-    // A store that was imported elsewhere may have the same content.
-    if (content_digest(opened, progress) == store.value("digest", "")) return path;
-    if (other.empty()) other = path;
-  }
-  if (!other.empty())
-    throw JobError(JobEnd::kStoreChanged,
-                   fmt::format("{}: is not the store that {} was planned for; plan the job anew, or name the store by "
-                               "--store",
-                               other, job.path()));
-  throw FileError(paths.back(), "is not there; name the job's store by --store");
-}
-
 /// Returns the arguments of the call, with the names that the files have here.
 std::vector<std::string> arguments_here(const JobFolder& job, const std::string& store, Progress& progress) {
   const Document& document = job.document();
@@ -110,6 +88,27 @@ std::vector<std::string> arguments_here(const JobFolder& job, const std::string&
 }
 
 }  // namespace
+
+std::string store_of_job(const JobFolder& job, const std::string& given, Progress& progress) {
+  const Document& store = job.document()["store"];
+  std::vector<std::string> paths{store.value("name", ""), store.value("path", "")};
+  if (!given.empty()) paths = {given};
+  std::string other;
+  for (const std::string& path : paths) {
+    if (!is_file(path)) continue;
+    const Store opened(path);
+    if (viewshed::print_of(opened) == print_in(store)) return path;
+    // A store that was imported elsewhere may have the same content.
+    if (content_digest(opened, progress) == store.value("digest", "")) return path;
+    if (other.empty()) other = path;
+  }
+  if (!other.empty())
+    throw JobError(JobEnd::kStoreChanged,
+                   fmt::format("{}: is not the store that {} was planned for; plan the job anew, or name the store by "
+                               "--store",
+                               other, job.path()));
+  throw FileError(paths.back(), "is not there; name the job's store by --store");
+}
 
 JobPlan plan_of(const VerbCall& call, std::uint64_t most_cells, Progress& progress) {
   const std::string store = call.store();
@@ -144,11 +143,11 @@ JobPlan plan_of(const VerbCall& call, std::uint64_t most_cells, Progress& progre
 }
 
 PlannedCall::PlannedCall(const JobFolder& job, const std::string& store, Progress& progress)
-    : store_(find_store(job, store, progress)),
+    : store_(store_of_job(job, store, progress)),
       stamp_(stamp_of(store_)),
       most_cells_(job.document().value("most_cells", std::uint64_t{0})),
       dividing_(arguments_here(job, store_, progress)),
-      executing_(arguments_here(job, store_, progress)) {}
+      executing_(dividing_.arguments()) {}
 
 std::unique_ptr<viewshed::Tasks> PlannedCall::divide(Progress& progress) {
   return dividing_.complete().divide(most_cells_, progress);

@@ -32,15 +32,17 @@ struct JobPlan {
 /// Records a call. Reads the store, for its digest. Throws InputError, FileError.
 JobPlan plan_of(const VerbCall& call, std::uint64_t most_cells, Progress& progress);
 
+/// Finds the job's store: `given`, where that is not empty, else as the call has it, else where it lay when the job was
+/// planned. Throws JobError where it is another store, FileError where there is none.
+std::string store_of_job(const viewshed::JobFolder& job, const std::string& given, Progress& progress);
+
 /// A call that was recorded.
 class PlannedCall {
  public:
-  /// Finds the store: `store`, where that is not empty, else as the call has it, else where it lay when the job was
-  /// planned; and the tables: as the call has them where these are unchanged, else the job's copies. Throws JobError
-  /// where the store is another one, or this is another version of the program.
+  /// Takes store_of_job(), and the tables as the call has them where these are unchanged, else the job's copies. Throws
+  /// JobError where the store is another one, or this is another version of the program.
   PlannedCall(const viewshed::JobFolder& job, const std::string& store, Progress& progress);
 
-  const std::string& store() const { return store_; }
   /// Divides the question as planned.
   std::unique_ptr<viewshed::Tasks> divide(Progress& progress);
   /// Throws JobError where the store is no longer what it was.
@@ -49,7 +51,6 @@ class PlannedCall {
   Verb& verb();
 
  private:
-  std::vector<std::string> arguments_;
   std::string store_;
   FileStamp stamp_;  ///< the store's
   std::uint64_t most_cells_;

@@ -7,7 +7,6 @@
 #include <iostream>
 #include <new>
 #include <string>
-#include <sys/resource.h>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -19,6 +18,7 @@
 #include <itin/document.hpp>
 #include <itin/error.hpp>
 #include <itin/likely_meant.hpp>
+#include <itin/peak_memory.hpp>
 #include <viewshed/job.hpp>
 
 #include "program/call_error.hpp"
@@ -51,12 +51,6 @@ void require_known_verb(const std::vector<std::string>& arguments, const std::ve
     throw InputError(fmt::format("unknown verb '{}'{}; the verbs are {}", first, did_you_mean(first, names),
                                  fmt::join(names, ", ")));
   }
-}
-
-std::uint64_t peak_memory_bytes() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
 }
 
 Document complete_document(const Verb& verb, Result& result, double seconds) {

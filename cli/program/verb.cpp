@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <itin/error.hpp>
+#include <viewshed/tasks.hpp>
 
 #include "program/field_names.hpp"
 

@@ -9,7 +9,10 @@
 
 #include <itin/document.hpp>
 #include <itin/progress.hpp>
-#include <viewshed/tasks.hpp>
+
+namespace itin::viewshed {
+class Tasks;
+}
 
 namespace itin::cli {
 

@@ -97,8 +97,7 @@ class RequestFiles {
                            viewshed::SitePlace& place) {
     if (!antennas) return;
     viewshed::SiteSector sector{place.name, antennas->of(site)};
-    const profile::AimedAntenna& antenna = sector.antenna;
-    if (antenna.pattern || antenna.azimuth_deg || antenna.tilt_deg) place.sectors.push_back(std::move(sector));
+    if (!sector.antenna.empty()) place.sectors.push_back(std::move(sector));
   }
 
   /// Makes one place of the rows that are the sectors of a mast: those at one position, of one height, with antennas.

@@ -18,6 +18,7 @@
 #include <viewshed/hidden_eyes.hpp>
 #include <viewshed/missing_ground.hpp>
 #include <viewshed/result_raster.hpp>
+#include <viewshed/tasks.hpp>
 #include <viewshed/viewshed.hpp>
 
 #include "options/memory_option.hpp"

@@ -21,6 +21,7 @@
 #include <viewshed/missing_ground.hpp>
 #include <viewshed/qgis_styles.hpp>
 #include <viewshed/result_sheet.hpp>
+#include <viewshed/tasks.hpp>
 #include <viewshed/visibility_index.hpp>
 
 #include "options/detail_options.hpp"

@@ -144,6 +144,9 @@ struct AimedAntenna {
   std::shared_ptr<const AntennaPattern> pattern = {};  ///< null: the gain towards the other end, wherever it is
   std::optional<double> azimuth_deg = {};              ///< from grid north; nothing: towards the other end
   std::optional<double> tilt_deg = {};                 ///< below the horizontal; nothing: towards the other end
+
+  /// Whether nothing of it is known.
+  bool empty() const { return !pattern && !azimuth_deg && !tilt_deg; }
 };
 
 /// What the budget of a link needs besides its path. What is nothing is left out, and the budget says so.

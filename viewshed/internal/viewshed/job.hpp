@@ -24,8 +24,8 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
-#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <itin/document.hpp>
@@ -99,13 +99,16 @@ class JobFolder {
     std::string runner;
   };
   std::vector<Claim> claims(double patience) const;
-  /// Removes the claims of runners that have vanished, and notes for their tasks that they have.
-  void remove_stale_claims(double patience) const;
+  /// Returns the same, and removes the claims of runners that have vanished, and notes for their tasks that they have.
+  std::vector<Claim> clear_claims(double patience) const;
 
  private:
   friend class JobClaim;
   std::string name_path(const char* folder, std::size_t task) const;
   std::optional<std::size_t> task_of(const std::string& name) const;
+  /// Tells the live claims, and calls stale(path, claim) for the others.
+  template <class Stale>
+  std::vector<Claim> claims_but(double patience, const Stale& stale) const;
 
   std::string path_;
   Document document_;

@@ -24,6 +24,8 @@
 
 namespace itin::viewshed {
 
+class IndexMerge;
+
 /// What a task decides, and about what that takes.
 struct Task {
   RasterGrid::Cell north_west;  ///< where its rectangle begins in the whole grid
@@ -84,12 +86,11 @@ class IndexTasks final : public Tasks {
   VisibilityIndex take();
 
  private:
-  class Merging;
   const Store& store_;
   IndexRequest request_;
   RasterGrid grid_;
   std::vector<Task> list_;
-  std::unique_ptr<Merging> merging_;
+  std::unique_ptr<IndexMerge> merge_;
 };
 
 /// A zone of turbines: the tasks are rectangles of its cells, each with the turbines that are near enough.

@@ -331,34 +331,38 @@ double JobFolder::seconds_spent() const {
   return seconds;
 }
 
-std::vector<JobFolder::Claim> JobFolder::claims(double patience) const {
+template <class Stale>
+std::vector<JobFolder::Claim> JobFolder::claims_but(double patience, const Stale& stale) const {
   std::vector<Claim> claims;
   const std::vector<std::string> names = names_in(path_ + "/claims");
   if (names.empty()) return claims;
   const double now = time_of_server(path_);
   for (const std::string& name : names) {
+    const std::string path = path_ + "/claims/" + name;
     const auto task = task_of(name);
-    const auto touched = touched_at(path_ + "/claims/" + name);
-    if (task && touched && now - *touched <= patience) claims.push_back({*task, name.substr(name.find('.') + 1)});
+    const auto touched = touched_at(path);
+    if (!task || !touched) continue;
+    Claim claim{*task, name.substr(name.find('.') + 1)};
+    if (now - *touched > patience)
+      stale(path, claim);
+    else
+      claims.push_back(std::move(claim));
   }
   return claims;
 }
 
-void JobFolder::remove_stale_claims(double patience) const {
-  const std::vector<std::string> names = names_in(path_ + "/claims");
-  if (names.empty()) return;
-  const double now = time_of_server(path_);
-  for (const std::string& name : names) {
-    const std::string path = path_ + "/claims/" + name;
-    const auto task = task_of(name);
-    const auto touched = touched_at(path);
+std::vector<JobFolder::Claim> JobFolder::claims(double patience) const {
+  return claims_but(patience, [](const std::string&, const Claim&) {});
+}
+
+std::vector<JobFolder::Claim> JobFolder::clear_claims(double patience) const {
+  return claims_but(patience, [&](const std::string& path, const Claim& claim) {
     // The one of several that removes it notes it.
-    if (!task || !touched || now - *touched <= patience || ::unlink(path.c_str()) != 0) continue;
-    if (is_done(*task)) continue;
-    const std::string failed = name_path("failed", *task);
+    if (::unlink(path.c_str()) != 0 || is_done(claim.task)) return;
+    const std::string failed = name_path("failed", claim.task);
     write_next([&](std::size_t k) { return vanished(failed, k); }, kMostVanished,
-               fmt::format("the runner {} vanished", name.substr(name.find('.') + 1)));
-  }
+               fmt::format("the runner {} vanished", claim.runner));
+  });
 }
 
 }  // namespace itin::viewshed

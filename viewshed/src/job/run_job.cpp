@@ -2,11 +2,11 @@
 #include <chrono>
 #include <new>
 #include <set>
-#include <sys/resource.h>
 #include <thread>
 
 #include <fmt/format.h>
 
+#include <itin/peak_memory.hpp>
 #include <itin/silent_progress.hpp>
 #include <viewshed/job.hpp>
 
@@ -19,12 +19,6 @@ namespace {
 
 /// How often tasks that others work on are looked at again.
 constexpr std::chrono::milliseconds kPause{500};
-
-std::uint64_t peak_memory_bytes() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
-}
 
 class Runner {
  public:
@@ -42,7 +36,6 @@ class Runner {
     guard_();
     while (!open_.empty()) {
       progress_.throw_if_cancelled();
-      job_.remove_stale_claims(options_.patience_s);
       if (!answer_next()) std::this_thread::sleep_for(kPause);
     }
     return std::move(report_);
@@ -52,7 +45,7 @@ class Runner {
   /// Answers the first open task that nobody works on. Returns false where there is none.
   bool answer_next() {
     std::set<std::size_t> claimed;
-    for (const JobFolder::Claim& claim : job_.claims(options_.patience_s)) claimed.insert(claim.task);
+    for (const JobFolder::Claim& claim : job_.clear_claims(options_.patience_s)) claimed.insert(claim.task);
     for (auto at = open_.begin(); at != open_.end();) {
       const std::size_t task = *at;
       if (job_.is_done(task)) {

@@ -156,8 +156,7 @@ void validate_radio(const Request& request) {
 
 /// Whether the observer has something of an antenna of its own.
 bool has_antenna(const Observer& observer) {
-  const profile::AimedAntenna& antenna = observer.antenna;
-  return antenna.pattern || antenna.azimuth_deg || antenna.tilt_deg;
+  return !observer.antenna.empty();
 }
 
 void validate_budgets(const Request& request) {

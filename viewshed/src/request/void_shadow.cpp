@@ -128,13 +128,9 @@ bool may_cross_voids(const Grid& units, const std::vector<RimEdge>& rim, Point2 
 
 void find_voids(const Grid& units, const std::vector<RimEdge>& rim, Result& result) {
   for (const Observer& observer : result.request.observers) {
-    const std::optional<double> radius = radius_of(result.request, observer);
-    // The surface may have been read no farther than to the radius, as window_of() has it.
-    const Box cells =
-        radius ? intersection(result.grid.bounds(), square_about(observer.position, *radius)) : result.grid.bounds();
+    const double reach = radius_of(result.request, observer).value_or(kInfinity);
     result.crosses_voids =
-        result.crosses_voids || surface_resumes(units, rim, observer.position, radius.value_or(kInfinity),
-                                                hull_about(observer.position, cells));
+        result.crosses_voids || may_cross_voids(units, rim, observer.position, reach, result.grid.bounds());
   }
 }
 

@@ -20,11 +20,6 @@ void exchange_part(Archive& archive, Part& part) {
 
 }  // namespace
 
-class IndexTasks::Merging : public IndexMerge {
- public:
-  using IndexMerge::IndexMerge;
-};
-
 IndexTasks::IndexTasks(const Store& store, const IndexRequest& request, std::uint64_t most_cells)
     : store_(store), request_(request), grid_(index_grid(store, request)) {
   const int level = level_within(store.metadata(), request.detail.coarsest());
@@ -60,12 +55,12 @@ void IndexTasks::add(std::size_t task, std::string_view answer) {
   reader.expect_end();
   for (const auto* values : {&part.shares.share, &part.shares.standard_error, &part.shares.undecided})
     if (values->size() != part.cells.count()) throw NotThoseValues();
-  if (!merging_) merging_ = std::make_unique<Merging>(grid_);
-  merging_->add(part);
+  if (!merge_) merge_ = std::make_unique<IndexMerge>(grid_);
+  merge_->add(part);
 }
 
 VisibilityIndex IndexTasks::take() {
-  return merging_->take();
+  return merge_->take();
 }
 
 }  // namespace itin::viewshed
