@@ -149,6 +149,19 @@ TEST_F(Job, EndsLoudlyWhereATaskHasTwoAnswers) {
   EXPECT_EQ(files_in("tmp"), 0U);
 }
 
+/// A runner that is killed while it writes leaves a part of a file.
+TEST_F(Job, PassesOverWhatARunnerLeftUnfinished) {
+  const ToldTasks tasks(2);
+  create(tasks);
+  run(tasks);
+  const JobFolder job(path());
+  const double seconds = job.seconds_spent();
+  for (const char* folder : {"stats", "claims", "failed"})
+    std::ofstream(path() + "/" + folder + "/.0123.part1-1.json") << "{\"seco";
+  EXPECT_EQ(job.seconds_spent(), seconds);
+  EXPECT_TRUE(job.claims(60).empty());
+}
+
 TEST_F(Job, SealsNothingOnceTheStoreHasChanged) {
   const ToldTasks tasks(2);
   create(tasks);

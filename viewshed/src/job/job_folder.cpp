@@ -96,11 +96,12 @@ bool is_there(const std::string& path) {
   return fs::exists(path, ignored);
 }
 
+/// The names of a folder's files, but for those that somebody writes or has left unfinished: they begin with a dot.
 std::vector<std::string> names_in(const std::string& folder) {
   std::vector<std::string> names;
   std::error_code error;
   for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error))
-    names.push_back(at->path().filename().string());
+    if (std::string name = at->path().filename().string(); name.front() != '.') names.push_back(std::move(name));
   if (error) throw FileError(folder, "cannot be read: " + error.message());
   std::sort(names.begin(), names.end());
   return names;
