@@ -40,14 +40,17 @@ class Theme:
     Attributes:
         name: As in ``themes=``.
         kind: ``"buildings"``, ``"vegetation"``, ``"contours"``, ...
-        features: How many were imported.
+        features: How many of them the store has.
         stands: Whether its features stand on the ground.
+        left_out: How many further features its imports left out, outside the terrain, say, or without a height. It is 0
+            for themes that do not stand.
     """
 
     name: str
     kind: str
     features: int
     stands: bool
+    left_out: int
 
 
 @dataclass(frozen=True)

@@ -28,7 +28,8 @@ py::list levels_of(const Store& store) {
 py::list theme_list(const Store& store) {
   py::list themes;
   for (const ThemeInfo& theme : store.metadata().themes)
-    themes.append(py::make_tuple(theme.name, std::string(name_of(theme.kind)), theme.features, theme.is_raised()));
+    themes.append(py::make_tuple(theme.name, std::string(name_of(theme.kind)), theme.features, theme.is_raised(),
+                                 theme.left_out_count()));
   return themes;
 }
 

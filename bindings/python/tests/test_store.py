@@ -18,10 +18,21 @@ def test_tells_what_it_holds(town: itin.Store) -> None:
     assert town.vertices == info["vertices"]
     assert town.bounds == tuple(info["bounds"][side] for side in ("xmin", "ymin", "xmax", "ymax"))
     assert [level.tolerance for level in town.levels] == [level["tolerance_m"] for level in info["levels"]]
-    assert [(t.name, t.kind, t.features) for t in town.themes] == [
-        (t["name"], t["kind"], t["features"]) for t in info["themes"]
+    assert [(t.name, t.kind, t.features, t.left_out) for t in town.themes] == [
+        (t["name"], t["kind"], t["features"], t["left_out"]) for t in info["themes"]
     ]
     assert town.themes[0].stands
+
+
+def test_counts_the_features_that_imports_left_out(tmp_path: Path) -> None:
+    path, towers = tmp_path / "towers.itin", tmp_path / "towers.csv"
+    itin.import_terrain(path, DATA / "cardiff.tif")
+    x, y = itin.Store(path).bounds[:2]
+    rings = [f"(({w} {s}, {w + 20} {s}, {w + 20} {s + 20}, {w} {s + 20}, {w} {s}))" for w, s in ((318000, 178000), (x - 999, y))]
+    towers.write_text("WKT,h\n" + "".join(f'"POLYGON {ring}",9\n' for ring in rings))
+    itin.import_features(path, towers, kind="buildings", height_field="h")
+    (theme,) = itin.Store(path).themes
+    assert (theme.features, theme.left_out) == (1, 1)
 
 
 def test_digest_is_the_command_line_s(town: itin.Store) -> None:

@@ -3,7 +3,7 @@
 import { element, make } from "./elements.js";
 import { areaText, shareText } from "./words.js";
 import { CUT, UNDECIDED, VISIBLE } from "../seen/seen_cells.js";
-import { HUES, SHARED, UNDECIDED_COLOUR, cssColour, hueCss, meanColour, rampColour } from "../seen/palette.js";
+import { HUES, SHARED, UNDECIDED_COLOUR, UNDECIDED_OPACITY, cssColour, hueCss, meanColour, rampColour } from "../seen/palette.js";
 import { SLOPE_COLOURS, SLOPE_LIMITS } from "../map/shade.js";
 import { sourcesOf } from "../seen/shown.js";
 import { tally } from "../seen/tally.js";
@@ -80,7 +80,9 @@ function verdictEntries(scene, sources) {
   if (options.frequency || holds(sources, CUT)) {
     entries.push([hueCss(sources.at(0)?.hue ?? 0), "paler: Fresnel zone cut", 0.3]);
   }
-  if (holds(sources, UNDECIDED)) entries.push([cssColour(UNDECIDED_COLOUR), "undecided, behind ground without data"]);
+  if (holds(sources, UNDECIDED)) {
+    entries.push([cssColour(UNDECIDED_COLOUR), "undecided, behind ground without data", UNDECIDED_OPACITY]);
+  }
   return entries;
 }
 

@@ -16,8 +16,9 @@ export const HUES = [
 ];
 /** @type {Rgb} */
 export const SHARED = [70, 70, 80];
-/** @type {Rgb} */
-export const UNDECIDED_COLOUR = [150, 120, 170];
+/** Brighter than any mixture of the hues above can be. @type {Rgb} */
+export const UNDECIDED_COLOUR = [255, 225, 60];
+export const UNDECIDED_OPACITY = 0.7;
 
 /** @type {Rgb[]} */
 const RAMP = [

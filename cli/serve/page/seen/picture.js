@@ -1,7 +1,7 @@
 // What cells look like: each cell has a class by what the masts shown say of it together, each class a colour.
 
 import { CUT, NEAREST, UNDECIDED, VERDICT, VISIBLE } from "./seen_cells.js";
-import { HUES, SHARED, UNDECIDED_COLOUR, meanColour, rampColour } from "./palette.js";
+import { HUES, SHARED, UNDECIDED_COLOUR, UNDECIDED_OPACITY, meanColour, rampColour } from "./palette.js";
 import { hullOf } from "./cell_window.js";
 import { classOf } from "./values.js";
 
@@ -120,7 +120,7 @@ function coloursBy(ofMask) {
   for (let at = 1; at < CLASSES; ++at) {
     const mask = at & 255;
     if (mask === 0) {
-      if (at & OPEN) put(colours, at, UNDECIDED_COLOUR, 0.6);
+      if (at & OPEN) put(colours, at, UNDECIDED_COLOUR, UNDECIDED_OPACITY);
       continue;
     }
     const [colour, opacity] = ofMask(mask);
