@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include <itin/coordinates.hpp>
+#include <itin/crs_words.hpp>
 #include <itin/stated_heights.hpp>
 #include <itin/store.hpp>
 #include <itin/store_scale.hpp>
@@ -26,8 +26,7 @@ bool stays(const SourceInfo& source) {
 std::string info_text(const Store& store, const StatedHeights& heights) {
   const StoreMetadata& metadata = store.metadata();
   const Box bounds = metadata.grid.box(metadata.bounds);
-  std::string text =
-      fmt::format("{:<12}{} ({})\n", "CRS", crs_title(metadata.crs_wkt), crs_identifier(metadata.crs_wkt));
+  std::string text = fmt::format("{:<12}{}\n", "CRS", crs_in_full(metadata.crs_wkt));
   text += fmt::format("{:<12}{:.2f},{:.2f} to {:.2f},{:.2f} ({:.1f} x {:.1f} km)\n", "bounds", bounds.xmin, bounds.ymin,
                       bounds.xmax, bounds.ymax, bounds.width() / 1000, bounds.height() / 1000);
   text += fmt::format("{:<12}{:g} m\n", "resolution", metadata.grid.resolution);

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <itin/coordinates.hpp>
+#include <itin/crs_words.hpp>
 
 namespace itin {
 
@@ -61,6 +62,16 @@ std::string crs_identifier(const std::string& wkt) {
 std::string crs_title(const std::string& wkt) {
   const std::size_t open = wkt.find('"');
   return open == std::string::npos ? "unnamed" : quoted_text(wkt, open);
+}
+
+std::string crs_in_short(const std::string& wkt) {
+  const std::string code = authority_and_code(wkt);
+  return code.empty() ? crs_title(wkt) : code;
+}
+
+std::string crs_in_full(const std::string& wkt) {
+  const std::string title = crs_title(wkt), code = authority_and_code(wkt);
+  return code.empty() ? title : fmt::format("{} ({})", title, code);
 }
 
 }  // namespace itin

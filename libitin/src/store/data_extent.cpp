@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include <itin/coordinates.hpp>
+#include <itin/crs_words.hpp>
 #include <itin/data_extent.hpp>
 #include <itin/grid_units.hpp>
 
@@ -14,9 +14,8 @@ bool is_on_the_data(Point2 p, const StoreMetadata& metadata) {
 
 std::string extent_of(const StoreMetadata& metadata) {
   const Box bounds = metadata.grid.box(metadata.bounds);
-  const std::string crs = crs_identifier(metadata.crs_wkt);
   return fmt::format("{:.10g},{:.10g} to {:.10g},{:.10g} in {}", bounds.xmin, bounds.ymin, bounds.xmax, bounds.ymax,
-                     crs.size() < 40 ? crs : crs_title(metadata.crs_wkt));
+                     crs_in_short(metadata.crs_wkt));
 }
 
 }  // namespace itin

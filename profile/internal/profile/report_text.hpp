@@ -18,11 +18,6 @@ DistanceUnit unit_of(const LosReport& report);
 /// Returns "1234.5 m", or "12.345 km".
 std::string distance_text(double metres, DistanceUnit unit);
 
-/// The CRS in few words: its authority's code, or else its name.
-std::string crs_in_short(const std::string& crs_wkt);
-/// The CRS by its name and, where an authority has given it one, its code.
-std::string crs_in_full(const std::string& crs_wkt);
-
 /// Tells of gaps: "no data over 1.200 km of the line, which leaves it undecided; known ground does not hide it". Empty
 /// without gaps.
 std::string gap_text(const LosReport& report, DistanceUnit unit);

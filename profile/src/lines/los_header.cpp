@@ -10,6 +10,7 @@
 
 #include <itin/celestial_body.hpp>
 #include <itin/coordinates.hpp>
+#include <itin/crs_words.hpp>
 #include <itin/feature_at.hpp>
 #include <itin/geodesic.hpp>
 #include <itin/grid_reference.hpp>

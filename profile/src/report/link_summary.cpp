@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include <itin/coordinates.hpp>
+#include <itin/crs_words.hpp>
 #include <profile/budget_text.hpp>
 #include <profile/radio_text.hpp>
 #include <profile/report_text.hpp>

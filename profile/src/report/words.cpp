@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include <itin/coordinates.hpp>
+#include <itin/crs_words.hpp>
 #include <itin/grazing.hpp>
 #include <itin/precondition.hpp>
 #include <profile/report_text.hpp>
@@ -32,16 +32,6 @@ DistanceUnit unit_of(const LosReport& report) {
 
 std::string distance_text(double metres, DistanceUnit unit) {
   return unit == DistanceUnit::kMetres ? fmt::format("{:.1f} m", metres) : fmt::format("{:.3f} km", metres / 1000);
-}
-
-std::string crs_in_short(const std::string& crs_wkt) {
-  const std::string code = crs_identifier(crs_wkt);
-  return code == crs_wkt ? crs_title(crs_wkt) : code;
-}
-
-std::string crs_in_full(const std::string& crs_wkt) {
-  const std::string title = crs_title(crs_wkt), code = crs_identifier(crs_wkt);
-  return code == crs_wkt ? title : fmt::format("{} ({})", title, code);
 }
 
 std::string gap_text(const LosReport& report, DistanceUnit unit) {

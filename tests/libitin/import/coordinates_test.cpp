@@ -7,6 +7,7 @@
 #include <ogr_srs_api.h>
 
 #include <itin/coordinates.hpp>
+#include <itin/crs_words.hpp>
 #include <itin/error.hpp>
 
 namespace itin {
@@ -44,6 +45,8 @@ TEST(CrsNames, PreferCodesToText) {
                             R"(LENGTHUNIT["metre",1]])";
   EXPECT_EQ(crs_identifier(local), local);
   EXPECT_EQ(crs_title(local), "Building site");
+  EXPECT_EQ(crs_in_short(local), "Building site");
+  EXPECT_EQ(crs_in_full(local), "Building site");
   const std::string utm = R"(PROJCS["WGS 84 / UTM zone 30N",GEOGCS["WGS 84",DATUM["WGS_1984",)"
                           R"(SPHEROID["WGS 84",6378137,298.257223563]],PRIMEM["Greenwich",0],)"
                           R"(UNIT["degree",0.0174532925199433]],PROJECTION["Transverse_Mercator"],)"
@@ -52,6 +55,8 @@ TEST(CrsNames, PreferCodesToText) {
                           R"(PARAMETER["false_northing",0],UNIT["metre",1],AUTHORITY["EPSG","32630"]])";
   EXPECT_EQ(crs_identifier(utm), "EPSG:32630");
   EXPECT_EQ(crs_title(utm), "WGS 84 / UTM zone 30N");
+  EXPECT_EQ(crs_in_short(utm), "EPSG:32630");
+  EXPECT_EQ(crs_in_full(utm), "WGS 84 / UTM zone 30N (EPSG:32630)");
 }
 
 /// As GDAL reads them in both of its dialects; but GDAL leaves out that a CRS is deprecated.
