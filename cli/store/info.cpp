@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <itin/counted.hpp>
 #include <itin/crs_words.hpp>
 #include <itin/stated_heights.hpp>
 #include <itin/store.hpp>
@@ -40,7 +41,7 @@ std::string info_text(const Store& store, const StatedHeights& heights) {
   text += "\nimported\n";
   for (const SourceInfo& source : metadata.sources) {
     const std::string spacing = !source.theme.empty() ? fmt::format("in theme {}", source.theme)
-                                : source.spacing > 0  ? fmt::format("every {:.4g} m", source.spacing)
+                                : source.spacing > 0  ? fmt::format("every {} m", significant(source.spacing, 4))
                                                       : "by need";
     text += fmt::format("  {}  {}{}  {:>13} vertices, {}  {}\n", source.imported, source.kind,
                         source.replaces ? " (replacing)"

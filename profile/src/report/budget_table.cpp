@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <itin/counted.hpp>
 #include <profile/budget_text.hpp>
 
 namespace itin::profile {
@@ -69,9 +70,9 @@ class BudgetRows {
   }
   void add_multipath() {
     add("Geoclimatic factor K (P.530-17)", fmt::format("{:.3g}", budget_.multipath->geoclimatic_factor));
-    add("Multipath occurrence p0", fmt::format("{:.3g} %", budget_.multipath->occurrence_percent));
+    add("Multipath occurrence p0", significant(budget_.multipath->occurrence_percent, 3) + " %");
     if (!budget_.multipath_outage) return;
-    add("Out by multipath, of the worst month", fmt::format("{:.2g} %", *budget_.multipath->worst_month_percent));
+    add("Out by multipath, of the worst month", significant(*budget_.multipath->worst_month_percent, 2) + " %");
     add("Out by multipath, of the year", outage_text(*budget_.multipath_outage));
   }
 

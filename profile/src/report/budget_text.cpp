@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <itin/counted.hpp>
 #include <profile/budget_text.hpp>
 
 namespace itin::profile {
@@ -35,16 +36,17 @@ std::string rain_line(const LinkBudget& budget) {
 
 std::string multipath_line(const LinkBudget& budget) {
   if (budget.multipath->occurrence_percent == 0) return "multipath: none up to 5 km";
-  std::string line = fmt::format("multipath: occurrence {:.3g} %", budget.multipath->occurrence_percent);
+  std::string line = fmt::format("multipath: occurrence {} %", significant(budget.multipath->occurrence_percent, 3));
   if (!budget.multipath_outage) return line;
-  return line + fmt::format("; out for {:.2g} % of the worst month, {} of the year",
-                            *budget.multipath->worst_month_percent, outage_text(*budget.multipath_outage));
+  return line + fmt::format("; out for {} % of the worst month, {} of the year",
+                            significant(*budget.multipath->worst_month_percent, 2),
+                            outage_text(*budget.multipath_outage));
 }
 
 }  // namespace
 
 std::string outage_text(const Outage& outage) {
-  return fmt::format("{}{:.2g} %", outage.at_most ? "at most " : "", outage.percent);
+  return fmt::format("{}{} %", outage.at_most ? "at most " : "", significant(outage.percent, 2));
 }
 
 std::string availability_text(const Availability& availability) {
@@ -56,7 +58,8 @@ std::string availability_text(const Availability& availability) {
 }
 
 std::string minutes_text(const Availability& availability) {
-  return fmt::format("{}{:.3g} minutes a year", availability.at_least ? "at most " : "", availability.outage_minutes);
+  return fmt::format("{}{} minutes a year", availability.at_least ? "at most " : "",
+                     significant(availability.outage_minutes, 3));
 }
 
 std::string not_counted_text(const LinkBudget& budget) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <itin/counted.hpp>
 #include <profile/documents.hpp>
 #include <profile/foliage_text.hpp>
 
@@ -58,14 +59,14 @@ Document foliage_document(const PathFoliage& path, const std::vector<std::string
 }
 
 std::string foliage_text(const PathFoliage& path) {
-  return fmt::format("{:.2f} m of foliage on the path; {:.3g} % of the light would come along it", path.length_m,
-                     100 * path.transmittance);
+  return fmt::format("{:.2f} m of foliage on the path; {} % of the light would come along it", path.length_m,
+                     significant(100 * path.transmittance, 3));
 }
 
 std::string foliage_text(const FoliageSight& sight, const Foliage& foliage) {
   std::string text =
-      fmt::format("{:.2f} m of foliage on the line; {:.3g} % of the light comes through, {:g} % are enough",
-                  sight.length_m, 100 * sight.transmittance, 100 * foliage.least_transmittance);
+      fmt::format("{:.2f} m of foliage on the line; {} % of the light comes through, {:g} % are enough", sight.length_m,
+                  significant(100 * sight.transmittance, 3), 100 * foliage.least_transmittance);
   if (!sight.loss) return text;
   const WoodLoss& loss = *sight.loss;
   if (loss.end_within) return text + fmt::format("; {:.1f} dB by P.833 section 2", loss.loss_db);

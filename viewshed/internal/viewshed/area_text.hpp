@@ -5,12 +5,13 @@
 
 #include <fmt/format.h>
 
+#include <itin/counted.hpp>
+
 namespace itin::viewshed {
 
 /// Returns an area as text, such as "366.8 km²" or "57960 m²".
 inline std::string area_text(double square_metres) {
-  return square_metres >= 1e5 ? fmt::format("{:.4g} km²", square_metres / 1e6)
-                              : fmt::format("{:.0f} m²", square_metres);
+  return square_metres >= 1e5 ? significant(square_metres / 1e6, 4) + " km²" : fmt::format("{:.0f} m²", square_metres);
 }
 
 /// Returns a part of an area as text, in the unit and with the decimals that all parts of the whole have: a legend has

@@ -6,6 +6,7 @@
 #include <fmt/ranges.h>
 
 #include <itin/coordinates.hpp>
+#include <itin/counted.hpp>
 #include <itin/parallel.hpp>
 #include <itin/surface_text.hpp>
 #include <itin/void_stripes.hpp>
@@ -172,7 +173,7 @@ std::pair<std::string, std::string> terrain_fact(const StoreMetadata& metadata, 
   double spacing = 0;
   for (const SourceInfo& source : metadata.sources)
     if (source.kind == "terrain") spacing = std::max(spacing, source.spacing);
-  const std::string posts = spacing > 0 ? fmt::format("posts up to {:.3g} m apart; ", spacing) : "";
+  const std::string posts = spacing > 0 ? fmt::format("posts up to {} m apart; ", significant(spacing, 3)) : "";
   return {"Terrain", posts + surface_text(metadata, detail)};
 }
 

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <itin/counted.hpp>
 #include <itin/sources_in.hpp>
 #include <itin/stated_heights.hpp>
 
@@ -19,7 +20,7 @@ constexpr std::size_t kMostNames = 8;
 std::string about(const SourceInfo& source, const StatedHeights& heights) {
   std::string text = source.theme.empty() ? "" : fmt::format("{} in theme {}", source.kind, source.theme);
   const auto add = [&](const std::string& part) { text += (text.empty() ? "" : "; ") + part; };
-  if (source.theme.empty() && source.spacing > 0) add(fmt::format("posts every {:.4g} m", source.spacing));
+  if (source.theme.empty() && source.spacing > 0) add(fmt::format("posts every {} m", significant(source.spacing, 4)));
   if (const std::string text_of_heights = heights.text_of(source); !text_of_heights.empty()) add(text_of_heights);
   if (!source.note.empty()) add(source.note);
   return text;

@@ -92,7 +92,7 @@ std::string terrain_in_words(const ZoneStudy& study) {
   std::string text =
       fmt::format("The terrain model of the study area is made from: {}. Coordinates are in {}.",
                   sources_in_words(study.sources, study.metadata, ""), crs_title(study.metadata.crs_wkt));
-  if (spacing > 0) text += fmt::format(" Its points lie up to {:.3g} m apart.", spacing);
+  if (spacing > 0) text += fmt::format(" Its points lie up to {} m apart.", significant(spacing, 3));
   return text + " " + datum_in_words(study.sources) + " " + surface_in_words(study) +
          " The points are joined by triangles, on which heights between them are read; nothing is resampled.";
 }
