@@ -243,8 +243,7 @@ class ImportVerb final : public Verb {
         "where such lines make room otherwise, in whatever order they come");
     app.add_option("--sea-level", sea_level_,
                    "Rasters: fill ground that is missing within the box about the sources, voids included, with the "
-                   "level sea at this elevation on their datum. Any other ground takes its place, whenever it is "
-                   "imported")
+                   "level sea at this elevation on their datum. Real terrain replaces it, whenever that is imported")
         ->type_name("METRES");
     reads(app.add_option(
                  "--sea-area", options_.sea_area,

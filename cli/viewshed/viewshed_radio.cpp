@@ -74,9 +74,9 @@ void ViewshedRadio::declare(CLI::App& app) {
                 "(3): GHz, or 7500MHz");
   declare_fresnel(app, fresnel_text_);
   app.add_flag("--loss", loss_,
-               "With --frequency, what a radio path to each cell loses instead, dB, in two bands: diffraction "
-               "(ITU-R P.526 delta-Bullington), and free space; of several observers that with the least sum. With "
-               "--power-dbm or --eirp-dbm, which need no --loss, the level that a receiver gets, dBm");
+               "With --frequency: the path loss to each cell instead, dB, in two bands, diffraction (ITU-R P.526 "
+               "delta-Bullington) and free space; of several observers that of the best one, which has the least sum. "
+               "With --power-dbm or --eirp-dbm, which need no --loss: the level that a receiver gets, dBm");
   budget_.declare(app, {"an observer", "the receiver", false});
   app.add_option("--margin-db", margins_text_,
                  "Margins over the sensitivity by which regions (-o .gpkg, .geojson), styles and legends tell levels "

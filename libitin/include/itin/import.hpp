@@ -81,8 +81,8 @@ struct ImportOptions {
                                       ///< copyright that a raster states
   bool repair = true;                 ///< import_lines() of contours: infer points where their triangles are flat
   /// For rasters: missing ground within the box about them, voids included, becomes level ground at this elevation (the
-  /// sea), metres, on their datum. Any other ground takes its place, whenever that is imported. Nothing: the ground
-  /// stays missing.
+  /// sea), metres, on their datum. Real terrain replaces it, whenever that is imported. Nothing: the ground stays
+  /// missing.
   std::optional<double> sea_level = {};
   std::string sea_area = {};  ///< polygons, as text or a file: the sea fills missing ground within all of them, and
                               ///< nowhere else

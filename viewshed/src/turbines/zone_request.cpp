@@ -123,7 +123,7 @@ void validate(const ZoneRequest& request) {
   if (request.cell_size && !is_positive(*request.cell_size))
     throw InputError(fmt::format("cell size {:g}: give a positive number of metres", *request.cell_size), "cell_size");
   if (!request.weights.empty() && (!request.grid || request.weights.size() != request.grid->cell_count()))
-    throw InputError("weights are of the cells of a grid, one each", "weights");
+    throw InputError("`weights` needs `grid` and one value for each cell", "weights");
   request.earth.validate();
 }
 

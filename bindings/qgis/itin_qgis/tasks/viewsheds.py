@@ -153,7 +153,7 @@ class RadioCoverage(Task):
     guide = "viewsheds.md"
     summary = (
         "Tells where the first Fresnel zone about the line to a mast is clear, where it is cut, and what is hidden; "
-        "or what a radio path to each cell loses by diffraction (ITU-R P.526) and in free space, in dB; or, with a link "
+        "or the path loss to each cell by diffraction (ITU-R P.526) and in free space, in dB; or, with a link "
         "budget, the level that a receiver in each cell gets, in dBm. The first end is then the mast, the second the "
         "receiver, and polygons have the levels by their margins over the sensitivity. Each cell has "
         "the answer that a line of sight to it has."

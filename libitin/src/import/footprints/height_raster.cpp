@@ -107,8 +107,8 @@ class HeightRasterReading {
     const Box ground = store.grid.box(store.bounds);
     if (box.xmin > ground.xmax || box.xmax < ground.xmin || box.ymin > ground.ymax || box.ymax < ground.ymin)
       result_.footprints.warnings.push_back(query_.path +
-                                            ": lies wholly beyond the ground of the store; none of its cells stands "
-                                            "before terrain is imported under it");
+                                            ": lies wholly beyond the ground of the store; import terrain there "
+                                            "first");
   }
 
   void take(const RasterWindow& window, const std::vector<double>& values) {

@@ -31,9 +31,7 @@ namespace {
 void require_farm_known(const Zone& zone, const std::string& farm) {
   const std::vector<std::string> farms = farms_of(zone);
   if (!farm.empty() && std::find(farms.begin(), farms.end(), farm) == farms.end())
-    throw InputError(
-        fmt::format("`alone`: '{}' is no wind farm of the turbines; there is: {}", farm, fmt::join(farms, ", ")),
-        "alone");
+    throw InputError(fmt::format("`alone`: unknown wind farm '{}'; known: {}", farm, fmt::join(farms, ", ")), "alone");
 }
 
 void require_viewpoint_known(const ZoneStudy& study, const std::string& name) {

@@ -19,7 +19,7 @@ SiteWording words_of_sites() {
           .order = "Chosen sites, in the order in which they add most",
           .count_heading = "How many sites serve each place",
           .bound = "no choice serves more than",
-          .sufficient = "even the most that they may serve never came first"};
+          .sufficient = "their upper bound never ranked first"};
 }
 
 SiteWording words_of_turbines(const TurbinePlacement& placement) {
