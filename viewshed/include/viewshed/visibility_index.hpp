@@ -39,8 +39,8 @@ struct IndexRequest {
 
 struct VisibilityIndex {
   RasterGrid grid;
-  std::vector<float>
-      share;  ///< seen of the ground within the radius, 0 to 1; NaN outside the area and where there is no ground
+  /// What is seen of the ground within the radius, 0 to 1; NaN outside the area and where there is no ground.
+  std::vector<float> share;
   std::vector<float> standard_error;  ///< sqrt(p (1 - p) / n) of the share p, with one target more of either kind
   std::vector<float> undecided;       ///< share that ground without data alone could hide, under kUnknown; NaN likewise
   double mean = 0;                    ///< the share seen, averaged over the cells
