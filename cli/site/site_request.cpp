@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
+#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
@@ -103,16 +105,16 @@ class RequestFiles {
   /// Makes one place of the rows that are the sectors of a mast: those at one position, of one height, with antennas.
   static void join_sectors(viewshed::SitePlaces& places) {
     std::vector<viewshed::SitePlace> joined;
+    std::map<std::tuple<double, double, std::optional<double>>, std::size_t> masts;
     for (viewshed::SitePlace& place : places.places) {
-      const auto mast = std::find_if(joined.begin(), joined.end(), [&](const viewshed::SitePlace& other) {
-        return !place.sectors.empty() && !other.sectors.empty() && place.position == other.position &&
-               place.height == other.height;
-      });
-      if (mast == joined.end()) {
-        joined.push_back(std::move(place));
-      } else {
-        mast->sectors.push_back(std::move(place.sectors.front()));
+      if (!place.sectors.empty()) {
+        const auto [mast, first] = masts.try_emplace({place.position.x, place.position.y, place.height}, joined.size());
+        if (!first) {
+          joined[mast->second].sectors.push_back(std::move(place.sectors.front()));
+          continue;
+        }
       }
+      joined.push_back(std::move(place));
     }
     places.places = std::move(joined);
   }

@@ -10,7 +10,7 @@
 The results are those of the command line, to the byte. Positions are in the store's CRS, lengths in metres.
 """
 
-from ._asked import Bounds, Earth, Grid, Observer, Place, Turbine, TurbinesToPlace, Verdict, Window
+from ._asked import Bounds, Earth, Grid, Observer, Place, Sector, Turbine, TurbinesToPlace, Verdict, Window
 from ._errors import CorruptStore, Error, FileError, InputError
 from ._imports import import_features, import_terrain
 from ._itin import allow_network, set_thread_count, thread_count
@@ -64,6 +64,7 @@ __all__ = [
     "Place",
     "Profile",
     "ShadowFlicker",
+    "Sector",
     "SitePlan",
     "Store",
     "Surface",

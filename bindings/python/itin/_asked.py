@@ -162,6 +162,23 @@ class Observer:
 
 
 @dataclass(frozen=True)
+class Sector:
+    """An antenna of a mast that has several, for link budgets. What it does not have is that of the call.
+
+    Attributes:
+        name: For tables.
+        antenna: The file of its pattern, .msi or .ant.
+        antenna_azimuth: Where it points, degrees from grid north.
+        antenna_tilt: Degrees below the horizontal.
+    """
+
+    name: str = ""
+    antenna: Path | None = None
+    antenna_azimuth: float | None = None
+    antenna_tilt: float | None = None
+
+
+@dataclass(frozen=True)
 class Place:
     """A candidate for a site, an existing site, or a point of the demand.
 
@@ -172,6 +189,7 @@ class Place:
         height: Metres above what it stands on. None: the height of the call.
         cost: The cost of a candidate's place, without its mast.
         weight: The weight of a point of the demand.
+        sectors: The antennas of a candidate or an existing site that has its own.
     """
 
     x: float
@@ -180,6 +198,7 @@ class Place:
     height: float | None = None
     cost: float = 0.0
     weight: float = 1.0
+    sectors: Sequence[Sector] = ()
 
 
 @dataclass(frozen=True)

@@ -33,6 +33,14 @@ viewshed::SitePlace place_of(const py::dict& fields) {
   take(fields, "height", place.height);
   take(fields, "cost", place.cost);
   take(fields, "weight", place.weight);
+  if (fields.contains("sectors")) {
+    for (const py::handle item : fields["sectors"]) {
+      const auto sector = item.cast<py::dict>();
+      viewshed::SiteSector& added = place.sectors.emplace_back();
+      take(sector, "name", added.name);
+      added.antenna = antenna_of(sector);
+    }
+  }
   return place;
 }
 

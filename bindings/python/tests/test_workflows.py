@@ -40,6 +40,37 @@ def test_sites_are_the_command_line_s(cardiff: itin.Store, tmp_path: Path) -> No
     assert plan.redundancy.shape == plan.grid.shape
 
 
+def test_a_mast_with_sectors_is_the_command_line_s(cardiff: itin.Store, tmp_path: Path) -> None:
+    pattern = tmp_path / "sector.msi"
+    pattern.write_text("HORIZONTAL 2\n0 0\n180 20\nVERTICAL 2\n0 1\n180 20\n")
+    (x, y), homes = PLACES[0], PLACES[1:]
+    sectors = [itin.Sector(name, pattern, azimuth, 2) for name, azimuth in (("north", 0), ("south", 180))]
+    plan = cardiff.site(
+        [itin.Place(x, y, "north", sectors=sectors)],
+        masts=[(25, 1)],
+        demand=[itin.Place(*home, f"home {i}", 5) for i, home in enumerate(homes)],
+        count=1,
+        radius=9000,
+        cell_size=300,
+        frequency_ghz=5.8,
+        power_dbm=20,
+        gain_dbi=(16, 20),
+        sensitivity_dbm=-90,
+    )
+    rows = [f"{sector.name},{x},{y},{pattern},{sector.antenna_azimuth},{sector.antenna_tilt}" for sector in sectors]
+    (tmp_path / "masts.csv").write_text("\n".join(["name,x,y,antenna,azimuth,tilt", *rows]) + "\n")
+    lines = [f"home {i},{x},{y},5" for i, (x, y) in enumerate(homes)]
+    (tmp_path / "homes.csv").write_text("\n".join(["name,x,y,height", *lines]) + "\n")
+    places = ["--candidates", tmp_path / "masts.csv", "--name-field", "name", "--demand", tmp_path / "homes.csv"]
+    radio = ["--frequency", "5.8", "--power-dbm", "20", "--gain-dbi", "16,20", "--sensitivity-dbm", "-90"]
+    choice = ["--mast-height", "25", "--count", "1", "--radius", "9000", "--cell", "300"]
+    run("site", cardiff.path, *places, *radio, *choice, "-o", tmp_path / "theirs")
+    plan.write(tmp_path / "ours")
+    ours, theirs = (list(csv.DictReader((tmp_path / who / "demand.csv").open())) for who in ("ours", "theirs"))
+    assert ours == theirs
+    assert {row["sector"] for row in ours} == {"north", "south"}
+
+
 def test_sites_are_proposed_in_an_area_for_weighted_cells(town: itin.Store) -> None:
     grid = itin.Grid(321600, 4297900, 10, 10, 30, 30)
     weights = np.ones(grid.shape)
