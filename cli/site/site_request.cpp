@@ -1,6 +1,5 @@
 #include "site/site_request.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <map>
 #include <optional>
