@@ -136,7 +136,8 @@ TEST_F(ThroughFoliage, LosesLightToMoreWoodAndGainsItByFelling) {
   add_houses();
   std::vector<StoreLine> lines;
   std::vector<LosQuery> queries;
-  for (int i = 0; i < 30; ++i) lines.push_back(line()), queries.push_back(query());
+  // So many that some of them lose light, whatever the seed.
+  for (int i = 0; i < 90; ++i) lines.push_back(line()), queries.push_back(query());
   const Foliage sparse{.leaf_area = 0.02};
   std::vector<double> before;
   {
