@@ -40,7 +40,7 @@ class JobVerb final : public Verb {
  public:
   std::string name() const override { return "job"; }
   std::string summary() const override {
-    return "Divide a viewshed, a ztv or a visibility index among machines: plan, run, status, merge";
+    return "Divide a viewshed, ztv, visibility index or choice of sites among machines";
   }
   bool takes_call() const override { return true; }
   void take_call(const std::vector<std::string>& call) override { call_ = call; }
@@ -48,7 +48,7 @@ class JobVerb final : public Verb {
   void declare(CLI::App& app) override {
     app_ = &app;
     reads(app.add_option("ACTION", action_,
-                         "plan - divide a call of viewshed, ztv or visibility into tasks, and write them as a folder\n"
+                         "plan - divide a call of viewshed, ztv, visibility or site into tasks, written as a folder\n"
                          "run - answer open tasks, on any machine that has the folder, until none is left\n"
                          "status - tell which tasks are done, worked on, open, or set aside after failures\n"
                          "merge - write the outputs of the call, with the bytes that the call by itself writes"))
@@ -128,8 +128,8 @@ class JobVerb final : public Verb {
     return call.complete().divide(most_cells, progress);
   }
 
-  /// The greatest number of cells of a task, so that there are as many as wanted, or each takes about as long as it
-  /// should.
+  /// The greatest number of cells, or of sites, of a task, so that there are as many as wanted, or each takes about as
+  /// long as it should.
   std::uint64_t most_cells(Progress& progress) const {
     VerbCall whole(call_);
     const auto tasks = divided(whole, viewshed::kAnyNumberOfCells, progress);

@@ -47,13 +47,16 @@ bool has_digest(const std::string& path, const std::string& digest, Progress& pr
   return is_file(path) && file_sha256(path, progress) == digest;
 }
 
-/// Replaces a value among arguments, also behind the equals sign of an option.
-void replace_value(std::vector<std::string>& arguments, const std::string& value, const std::string& by) {
+/// Replaces a value among arguments, also behind the equals sign of an option. Returns whether it is there.
+bool replace_value(std::vector<std::string>& arguments, const std::string& value, const std::string& by) {
+  bool is_there = false;
   for (std::string& argument : arguments) {
-    if (argument == value) argument = by;
-    if (argument.starts_with("-") && argument.ends_with("=" + value))
-      argument.replace(argument.size() - value.size(), value.size(), by);
+    const bool behind = argument.starts_with("-") && argument.ends_with("=" + value);
+    if (argument != value && !behind) continue;
+    argument.replace(argument.size() - value.size(), value.size(), by);
+    is_there = true;
   }
+  return is_there;
 }
 
 StorePrint print_in(const Document& store) {
@@ -80,9 +83,10 @@ std::vector<std::string> arguments_here(const JobFolder& job, const std::string&
     const std::string name = input.value("name", ""), digest = input.value("sha256", "");
     const std::string copy = input.value("copy", "");
     if (has_digest(name, digest, progress)) continue;
-    if (copy.empty() || !has_digest(job.input(copy), digest, progress))
+    // A file that another one names, as parameters do, has no place among the arguments.
+    if (copy.empty() || !has_digest(job.input(copy), digest, progress) ||
+        !replace_value(arguments, name, job.input(copy)))
       throw FileError(name, "is not the file that the job was planned with; bring that back, or plan the job anew");
-    replace_value(arguments, name, job.input(copy));
   }
   return arguments;
 }

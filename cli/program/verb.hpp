@@ -43,8 +43,8 @@ class Verb {
   /// Runs the verb. Throws itin::Error.
   virtual Result execute(Progress& progress) = 0;
 
-  /// Divides the verb's question into tasks of no more than about so many cells, in place of execute(). The tasks refer
-  /// to the verb. Throws InputError for calls that nobody else can work on.
+  /// Divides the verb's question into tasks of no more than about so many cells, or sites, in place of execute(). The
+  /// tasks refer to the verb. Throws InputError for calls that nobody else can work on.
   virtual std::unique_ptr<viewshed::Tasks> divide(std::uint64_t most_cells, Progress& progress);
   /// Makes execute() take its answer from these tasks of divide(), to which all answers have been added.
   virtual void take_answers(viewshed::Tasks& answered);

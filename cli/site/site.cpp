@@ -18,6 +18,7 @@
 #include <viewshed/documents.hpp>
 #include <viewshed/site_document.hpp>
 #include <viewshed/site_plan.hpp>
+#include <viewshed/site_tasks.hpp>
 
 #include "options/memory_option.hpp"
 #include "options/nodata_option.hpp"
@@ -52,6 +53,15 @@ class SiteVerb final : public Verb {
     return parameters;
   }
 
+  std::unique_ptr<viewshed::Tasks> divide(std::uint64_t most_sites, Progress& progress) override {
+    if (options_.resume) throw InputError("--resume goes on with a run by itself, and a job divides it; leave it out");
+    std::vector<std::string> warnings;
+    open_store(warnings, progress);
+    return std::make_unique<viewshed::SiteTasks>(*opened_, complete_request(options_, opened_->metadata()), most_sites,
+                                                 progress);
+  }
+  void take_answers(viewshed::Tasks& answered) override { answered_ = &dynamic_cast<viewshed::SiteTasks&>(answered); }
+
   Result execute(Progress& progress) override {
     // Files that a killed run has written may be replaced when it is resumed.
     policy_ = options_.policy;
@@ -59,16 +69,32 @@ class SiteVerb final : public Verb {
     if (options_.resume) require_unfinished();
     const NewFolder folder(options_.directory);
     outputs_ = site_outputs(options_, policy_);
-    const Store store(options_.store, cache_within(options_.request.memory_bytes));
+    Result result;
+    open_store(result.warnings, progress);
+    inputs_document_ = hash_inputs(progress);
+    if (answered_ != nullptr) {
+      write(answered_->take(progress), result, progress);
+    } else {
+      plan_and_write(result, progress);
+    }
+    return result;
+  }
+
+ private:
+  /// Opens the store, and completes the options by what it and the files of places say.
+  void open_store(std::vector<std::string>& warnings, Progress& progress) {
+    const Store& store = opened_.emplace(options_.store, cache_within(options_.request.memory_bytes));
     options_.earth.take_body_of(store.metadata());
     options_.themes.choice().check(store.metadata().themes);
     options_.themes.complete(store, progress);
     options_.request.themes = options_.themes.choice();
     options_.take_posting(store.metadata());
-    inputs_document_ = hash_inputs(progress);
-    Result result;
-    options_.take_fields(result.warnings);
-    viewshed::SitePlanRequest request = complete_request(options_, store.metadata());
+    options_.take_fields(warnings);
+  }
+
+  /// Makes the plan, from what an earlier run has found where it is resumed, and writes it.
+  void plan_and_write(Result& result, Progress& progress) {
+    viewshed::SitePlanRequest request = complete_request(options_, opened_->metadata());
     std::optional<SiteCheckpoint> checkpoint;
     request.on_survey = [&](viewshed::SiteCoverage& coverage, std::size_t sites) {
       checkpoint.emplace(options_.path("site.work"), key(), options_.resume, sites, coverage, progress);
@@ -76,15 +102,12 @@ class SiteVerb final : public Verb {
         checkpoint->add(option, stage, bounds);
       };
     };
-    const viewshed::SitePlan plan = plan_sites(store, std::move(request), progress);
-    write(store, plan, result, progress);
+    write(plan_sites(*opened_, std::move(request), progress), result, progress);
     if (checkpoint->restored() > 0)
       result.text += fmt::format("taken over from an earlier run: {}\n", counted(checkpoint->restored(), "result"));
     checkpoint->remove();
-    return result;
   }
 
- private:
   /// Tells whether the folder has the results of a run that has not ended.
   bool was_killed() const { return std::filesystem::exists(options_.path("site.work")); }
 
@@ -138,7 +161,8 @@ class SiteVerb final : public Verb {
   }
 
   /// Writes the outputs and tells about them.
-  void write(const Store& store, const viewshed::SitePlan& site, Result& result, Progress& progress) {
+  void write(const viewshed::SitePlan& site, Result& result, Progress& progress) {
+    const Store& store = *opened_;
     warn(store, site, result.warnings);
     result.document = site_document(site, store.metadata());
     if (site.leaves_open) result.document["undecided"]["decided_by"] = kDecidesMissingGround;
@@ -222,6 +246,8 @@ class SiteVerb final : public Verb {
   }
 
   SiteOptions options_;
+  std::optional<Store> opened_;
+  viewshed::SiteTasks* answered_ = nullptr;  ///< what others have found, in place of computing it
   OutputPolicy policy_;
   std::vector<viewshed::PlanFile> outputs_;
   Document inputs_document_ = Document::array();

@@ -155,6 +155,8 @@ class SiteCoverage final : public Coverage {
   void refine(std::span<const std::size_t> options) override;
   /// Judges, at the first stage, every option that was not judged yet.
   void explore();
+  /// Does so for some options alone. Their bounds are those that explore() finds among all.
+  void explore(std::span<const std::size_t> options);
   /// Frees the memory of the surfaces. Refining options after this reads the surfaces again.
   void release_surfaces();
 
@@ -163,6 +165,8 @@ class SiteCoverage final : public Coverage {
   int last_stage() const;
   /// Returns the bounds of an option after the first stage.
   const CoverageBounds& first_bounds(std::size_t option) const;
+  /// Returns these on cells or points, as on_refined is told them.
+  const CoverageBounds& first_bounds_of_targets(std::size_t option) const;
   /// Returns the stage in words: "tolerance 4 m", "exact", ...
   std::string stage_name(int stage) const;
   /// Restores the stage and bounds that an earlier run had told on_refined. Precondition: that run was of the same

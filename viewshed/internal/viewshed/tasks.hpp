@@ -28,9 +28,9 @@ class IndexMerge;
 
 /// What a task decides, and about what that takes.
 struct Task {
-  RasterGrid::Cell north_west;  ///< where its rectangle begins in the whole grid
+  RasterGrid::Cell north_west;  ///< where its rectangle begins in the whole grid; sites make one row, each a column
   std::int64_t columns = 0, rows = 0;
-  std::uint64_t eyes = 0;    ///< observers, or turbines, that are looked at from its cells
+  std::uint64_t eyes = 0;    ///< observers or sites, or turbines that are looked at from its cells
   double seconds = 0;        ///< about how long it takes one thread
   std::uint64_t points = 0;  ///< points of the surface under its sight lines
 

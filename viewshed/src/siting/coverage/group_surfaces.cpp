@@ -37,8 +37,17 @@ bool GroupSurfaces::read_whole_lattice(Progress& progress) {
   return whole_lattice_.has_value();
 }
 
-std::unique_ptr<GroupSurvey> GroupSurfaces::survey_of(const std::vector<std::size_t>& group,
-                                                      const StageSurface& surface, Progress& progress) {
+const GroupSurvey& GroupSurfaces::survey_of(const std::vector<std::size_t>& group, const StageSurface& surface,
+                                            Progress& progress) {
+  if (!last_ || last_->group != group || last_->surface != surface) {
+    last_.reset();  // the memory holds one
+    last_ = {group, surface, read(group, surface, progress)};
+  }
+  return *last_->survey;
+}
+
+std::unique_ptr<GroupSurvey> GroupSurfaces::read(const std::vector<std::size_t>& group, const StageSurface& surface,
+                                                 Progress& progress) {
   if (survey_.level) return survey_levels(store_, survey_);
   if (surface.binned()) return binned(progress);
   return stages_.judges_cells_exactly(surface.level) ? exact_cells(group, surface.themed(), progress)
@@ -47,13 +56,17 @@ std::unique_ptr<GroupSurvey> GroupSurfaces::survey_of(const std::vector<std::siz
 
 const GroupSurvey& GroupSurfaces::whole(const StageSurface& surface, Progress& progress) {
   std::unique_ptr<GroupSurvey>& whole = whole_[surface.themed() ? 1 : 0];
-  if (!whole) whole = survey_of(all_options(survey_), surface, progress);
+  if (!whole) {
+    last_.reset();
+    whole = read(all_options(survey_), surface, progress);
+  }
   return *whole;
 }
 
 void GroupSurfaces::release() {
   whole_lattice_.reset();
   whole_ = {};
+  last_.reset();
 }
 
 Request GroupSurfaces::request_of(std::span<const std::size_t> options, bool themed) const {

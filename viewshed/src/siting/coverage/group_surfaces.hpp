@@ -26,9 +26,9 @@ class GroupSurfaces {
   /// the surface is a lattice.
   bool read_whole_lattice(Progress& progress);
 
-  /// Returns the survey of a group over the surface of a stage. Throws as triangulate() does.
-  std::unique_ptr<GroupSurvey> survey_of(const std::vector<std::size_t>& group, const StageSurface& surface,
-                                         Progress& progress);
+  /// Returns the survey of a group over the surface of a stage, which is kept until another group's is asked for.
+  /// Throws as triangulate() does.
+  const GroupSurvey& survey_of(const std::vector<std::size_t>& group, const StageSurface& surface, Progress& progress);
   /// Returns the survey over the full surface about all sites, which is kept. Precondition: the memory holds that
   /// surface.
   const GroupSurvey& whole(const StageSurface& surface, Progress& progress);
@@ -40,6 +40,14 @@ class GroupSurfaces {
   Request request_of(std::span<const std::size_t> options, bool themed) const;
 
  private:
+  struct OfGroup {
+    std::vector<std::size_t> group;
+    StageSurface surface;
+    std::unique_ptr<GroupSurvey> survey;
+  };
+
+  std::unique_ptr<GroupSurvey> read(const std::vector<std::size_t>& group, const StageSurface& surface,
+                                    Progress& progress);
   std::unique_ptr<GroupSurvey> binned(Progress& progress);
   std::unique_ptr<GroupSurvey> exact_cells(const std::vector<std::size_t>& group, bool themed, Progress& progress);
   std::unique_ptr<GroupSurvey> enveloped(const std::vector<std::size_t>& group, const StageSurface& surface,
@@ -53,6 +61,7 @@ class GroupSurfaces {
   double raise_ = 0;  ///< metres by which targets on features are raised above the bare ground
   std::optional<RetrievedSurface> whole_lattice_;      ///< until a survey takes it
   std::array<std::unique_ptr<GroupSurvey>, 2> whole_;  ///< bare, and with the themes
+  std::optional<OfGroup> last_;
 };
 
 }  // namespace itin::viewshed

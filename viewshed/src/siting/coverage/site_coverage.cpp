@@ -73,10 +73,10 @@ class SiteCoverage::Impl {
 
   /// Judges options over the surfaces of the groups of all options, so that the results do not depend on what was
   /// judged before.
-  void explore() {
+  void explore(std::span<const std::size_t> options) {
     std::vector<std::size_t> fresh;
-    for (std::size_t option = 0; option < states_.size(); ++option)
-      if (states_[option].stage < 0) fresh.push_back(option);
+    std::copy_if(options.begin(), options.end(), std::back_inserter(fresh),
+                 [&](std::size_t option) { return states_[option].stage < 0; });
     if (!fresh.empty()) judge(fresh, all_options(survey_), 0, progress_);
   }
 
@@ -117,6 +117,8 @@ class SiteCoverage::Impl {
     states_[option].stage = stage;
     tell_elements(states_[option]);
   }
+
+  void explore() { explore(all_options(survey_)); }
 
   void release_surfaces() { surfaces_.release(); }
 
@@ -168,10 +170,9 @@ class SiteCoverage::Impl {
   void judge_group(const std::vector<std::size_t>& options, const std::vector<std::size_t>& group, int stage,
                    SegmentProgress& progress) {
     const StageSurface& surface = stages_.at(stage);
-    std::unique_ptr<GroupSurvey> own;
-    if (surface.binned() || surface.level > 0 || !stages_.whole_fits())
-      own = surfaces_.survey_of(group, surface, progress.reading());
-    const GroupSurvey& survey = own ? *own : surfaces_.whole(surface, progress.reading());
+    const bool whole = stages_.whole_fits() && !surface.binned() && surface.level == 0;
+    const GroupSurvey& survey =
+        whole ? surfaces_.whole(surface, progress.reading()) : surfaces_.survey_of(group, surface, progress.reading());
     CallProgress call(progress.judging());
     // Only few are judged at a time, so that a run that is killed can resume from the bounds recorded.
     for (std::size_t first = 0; first < options.size(); first += kJudgedTogether) {
@@ -227,6 +228,9 @@ void SiteCoverage::refine(std::span<const std::size_t> options) {
 void SiteCoverage::explore() {
   impl_->explore();
 }
+void SiteCoverage::explore(std::span<const std::size_t> options) {
+  impl_->explore(options);
+}
 void SiteCoverage::release_surfaces() {
   impl_->release_surfaces();
 }
@@ -238,6 +242,9 @@ int SiteCoverage::last_stage() const {
 }
 const CoverageBounds& SiteCoverage::first_bounds(std::size_t option) const {
   return impl_->first_known(option);
+}
+const CoverageBounds& SiteCoverage::first_bounds_of_targets(std::size_t option) const {
+  return impl_->state(option).first;
 }
 std::string SiteCoverage::stage_name(int stage) const {
   return impl_->stages().name(stage);

@@ -8,6 +8,8 @@
 
 #include <itin/raster.hpp>
 
+#include "plan/partition.hpp"
+
 namespace itin::viewshed {
 
 std::vector<std::size_t> all_options(const SiteSurvey& survey) {
@@ -60,6 +62,18 @@ Window window_about(const SiteSurvey& survey, const std::vector<std::size_t>& op
     }
   }
   return Window::polygons(std::move(runs));
+}
+
+std::pair<std::span<std::size_t>, std::span<std::size_t>> halves_across(const std::vector<SitePosition>& positions,
+                                                                        std::span<std::size_t> sites) {
+  Box box;
+  for (const std::size_t site : sites) box.extend(positions[site].position);
+  std::sort(sites.begin(), sites.end(), [&](std::size_t a, std::size_t b) {
+    const Point2 p = positions[a].position, q = positions[b].position;
+    const double pa = box.width() > box.height() ? p.x : p.y, pb = box.width() > box.height() ? q.x : q.y;
+    return pa != pb ? pa < pb : a < b;
+  });
+  return halves(sites);
 }
 
 }  // namespace itin::viewshed

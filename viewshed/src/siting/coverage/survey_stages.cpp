@@ -102,8 +102,8 @@ std::vector<SiteGroup> SurveyStages::groups(std::vector<std::size_t> options, co
     return some.size() < 2 || fits(points_of(some, level), some.size(), level);
   };
   std::vector<SiteGroup> groups;
-  for (const Options some :
-       parts_that_fit(Options(options), fit_or_is_one, [&](Options group) { return halves_across(group); }))
+  for (const Options some : parts_that_fit(Options(options), fit_or_is_one,
+                                           [&](Options group) { return halves_across(survey_.positions, group); }))
     groups.push_back({{some.begin(), some.end()}, points_of(some, level)});
   return groups;
 }
@@ -116,18 +116,6 @@ Effort SurveyStages::effort_of(const SiteGroup& group, const StageSurface& surfa
   if (judges_cells_exactly(surface.level) && !surface.binned())
     return {effort_of_triangles(points), effort_of_swept_lines(lines)};
   return {effort_of_envelope(points), survey_.targets.grid ? effort_of_swept_lines(lines) : effort_of_lines(lines)};
-}
-
-/// Returns the options in the west and in the east, or in the south and in the north.
-std::pair<SurveyStages::Options, SurveyStages::Options> SurveyStages::halves_across(Options options) const {
-  Box box;
-  for (const std::size_t option : options) box.extend(survey_.positions[option].position);
-  std::sort(options.begin(), options.end(), [&](std::size_t a, std::size_t b) {
-    const Point2 p = survey_.positions[a].position, q = survey_.positions[b].position;
-    const double pa = box.width() > box.height() ? p.x : p.y, pb = box.width() > box.height() ? q.x : q.y;
-    return pa != pb ? pa < pb : a < b;
-  });
-  return halves(options);
 }
 
 }  // namespace itin::viewshed

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <itin/store.hpp>
@@ -27,6 +26,7 @@ struct StageSurface {
 
   bool themed() const { return kind != Kind::kBareLevel; }
   bool binned() const { return kind == Kind::kBins; }
+  bool operator==(const StageSurface&) const = default;
 };
 
 /// Sites that are judged over one surface.
@@ -76,7 +76,6 @@ class SurveyStages {
 
   bool fits(std::uint64_t points, std::size_t options, int level) const;
   std::uint64_t points_of(Options options, int level) const;
-  std::pair<Options, Options> halves_across(Options options) const;
 
   const Store& store_;
   const SiteSurvey& survey_;
