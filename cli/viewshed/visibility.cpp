@@ -75,9 +75,10 @@ class VisibilityVerb final : public Verb {
                    "detail of a raster without features, and a --cell that is a multiple of the distance between its "
                    "heights; where there can be none, targets lie at random")
         ->type_name("N");
-    app.add_option("--targets", targets_text_,
-                   "Targets at random for every observer, in place of rays; four times as many halve the standard error "
-                   "(default where there can be no rays: 128)")
+    app.add_option(
+           "--targets", targets_text_,
+           "Targets at random for every observer, in place of rays; four times as many halve the standard error "
+           "(default where there can be no rays: 128)")
         ->type_name("N");
     sheet_.declare_file(app);
     window_.declare(app);
@@ -178,7 +179,8 @@ class VisibilityVerb final : public Verb {
     if (!sheet_.file().empty()) document["outputs"].push_back(sheet_.file());
     document["statistics"] = viewshed::statistics_document({index.retrieval, index.triangles, index.lines});
     result.text = fmt::format(
-        "{}: {}\non average, one of {} sees {:.2f} % (standard error {:.2f}) of the ground within {:g} m\n{}{}{}{}, {}; "
+        "{}: {}\non average, one of {} sees {:.2f} % (standard error {:.2f}) of the ground within {:g} m\n{}{}{}{}, "
+        "{}; "
         "{}\n",
         output_, readable_bytes(std::filesystem::file_size(output_)), counted(index.observers, "observer"),
         100 * index.mean, 100 * index.mean_error, request_.radius, undecided_in_words(index), missing_in_words(missing),
@@ -270,8 +272,8 @@ class VisibilityVerb final : public Verb {
     block.statement = viewshed::statement_of(metadata, request_.themes, request_.detail);
     block.facts = {{"Observers", fmt::format("at the centres of cells of {:g} m, {:g} m above the ground",
                                              request_.cell_size, request_.height)},
-                   {"Targets", fmt::format("{} for each observer, {:g} m above the ground",
-                                           each_in_words(index.sample), request_.target_height)},
+                   {"Targets", fmt::format("{} for each observer, {:g} m above the ground", each_in_words(index.sample),
+                                           request_.target_height)},
                    {"Radius", fmt::format("{:g} km", request_.radius / 1000)},
                    {"Undecided", fmt::format("{:.2f} % on average, which ground without data alone could hide",
                                              100 * index.mean_undecided)},

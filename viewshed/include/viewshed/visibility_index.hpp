@@ -10,10 +10,10 @@
 // estimated, and comes with its standard error. Both ends of sight lines stand on the ground, and what the themes have
 // standing there hides. Each sight line is decided as viewsheds decide theirs.
 //
-// Where the surface is that of a raster's posts, and cells are a multiple of what lies between these, every observer looks
-// along rays, evenly spread over all directions. Each ray looks at the ground in the middle of rings about the observer,
-// which are as wide as the distance between posts at most, and a look counts as much as its ring has area. Elsewhere
-// targets are drawn at random, evenly spread over the disc.
+// Where the surface is that of a raster's posts, and cells are a multiple of what lies between these, every observer
+// looks along rays, evenly spread over all directions. Each ray looks at the ground in the middle of rings about the
+// observer, which are as wide as the distance between posts at most, and a look counts as much as its ring has area.
+// Elsewhere targets are drawn at random, evenly spread over the disc.
 #pragma once
 
 #include <cstdint>
@@ -59,9 +59,9 @@ struct VisibilityIndex {
   /// By rays: from how much each differs from its neighbours. By targets: sqrt(p (1 - p) / n) of the share p, with one
   /// target more of either kind.
   std::vector<float> standard_error;
-  std::vector<float> undecided;       ///< share that ground without data alone could hide, under kUnknown; NaN likewise
-  double mean = 0;                    ///< the share seen, averaged over the cells
-  double mean_error = 0;              ///< the standard error of the mean, for these cells
+  std::vector<float> undecided;  ///< share that ground without data alone could hide, under kUnknown; NaN likewise
+  double mean = 0;               ///< the share seen, averaged over the cells
+  double mean_error = 0;         ///< the standard error of the mean, for these cells
   double mean_undecided = 0;
   std::uint64_t observers = 0;
   std::uint64_t targets = 0;  ///< looked at within the radius of all observers, on ground or not

@@ -3,8 +3,8 @@
 //   const IndexLayout layout = lay_out_index(store, request, progress);
 //   if (layout.sample.rays > 0) ...
 //
-// The layout depends on the store and the request alone, and so is the same for every part of an index, whoever computes
-// it.
+// The layout depends on the store and the request alone, and so is the same for every part of an index, whoever
+// computes it.
 #pragma once
 
 #include <cstdint>

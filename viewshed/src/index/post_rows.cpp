@@ -80,9 +80,9 @@ bool PostRows::whole(const PostBox& box) const {
   return true;
 }
 
-HalfPlane PostRows::plane(std::ptrdiff_t place, LatticeTin::Half half) const {
-  const auto height = [&](std::int64_t columns, std::int64_t rows) -> double {
-    return heights_[static_cast<std::size_t>(place + offset(columns, rows))];
+HalfPlane PostRows::plane(std::ptrdiff_t place, std::int64_t columns, std::int64_t rows, LatticeTin::Half half) const {
+  const auto height = [&](std::int64_t east, std::int64_t south) -> double {
+    return heights_[static_cast<std::size_t>(place + offset(columns + east, rows + south))];
   };
   switch (half) {
     case LatticeTin::kSouthWest:
@@ -102,12 +102,13 @@ std::optional<double> PostRows::ground(std::ptrdiff_t place, double u, double v)
   for (const std::int64_t west : {0, 1}) {
     for (const std::int64_t north : {0, 1}) {
       if ((west == 1 && u != 0) || (north == 1 && v != 0)) continue;
-      const std::ptrdiff_t cell = place + offset(-west, -north);
-      const std::uint8_t there = halves_.empty() ? LatticeTin::kFalling : halves_[static_cast<std::size_t>(cell)];
+      const std::uint8_t there =
+          halves_.empty() ? LatticeTin::kFalling : halves_[static_cast<std::size_t>(place + offset(-west, -north))];
       const double east = u + static_cast<double>(west), south = v + static_cast<double>(north);
       for (const auto half :
            {LatticeTin::kSouthWest, LatticeTin::kNorthEast, LatticeTin::kNorthWest, LatticeTin::kSouthEast}) {
-        if ((there & half) != 0 && half_holds(half, east, south)) return plane(cell, half).at(east, south);
+        if ((there & half) != 0 && half_holds(half, east, south))
+          return plane(place, -west, -north, half).at(east, south);
       }
     }
   }

@@ -1,5 +1,5 @@
-// The posts of a lattice, laid out for rays that leave many observers at once: the observers of a row stand `step` posts
-// apart, and what lies at one place from each of them lies side by side.
+// The posts of a lattice, laid out for rays that leave many observers at once: the observers of a row stand `step`
+// posts apart, and what lies at one place from each of them lies side by side.
 //
 //   const PostRows posts(lattice, box, first, 2);
 //   const std::ptrdiff_t here = posts.place(observer, row);
@@ -48,7 +48,7 @@ class PostRows {
   std::ptrdiff_t place(std::int64_t observer, std::int64_t row) const {
     return (row - box_.north) * row_length_ + observer - first_quotient_;
   }
-  /// Returns how far a post lies from another in the list, when it lies so far to the east and the south of it.
+  /// Returns how far a post that lies so far to the east and the south of an observer's comes after it in the list.
   std::ptrdiff_t offset(std::int64_t columns, std::int64_t rows) const {
     const std::int64_t quotient = quotient_of(columns);
     return rows * row_length_ + (columns - quotient * step_) * class_length_ + quotient;
@@ -60,11 +60,12 @@ class PostRows {
   /// Tells whether all cells between the posts of a box are whole.
   bool whole(const PostBox& box) const;
 
-  /// Returns the height of the ground, grid units, at the place (u, v) east and south of a post, in cells, both in
-  /// [0, 1); nothing where there is no ground.
+  /// Returns the height of the ground, grid units, at the place (u, v) east and south of an observer's post, in cells,
+  /// both in [0, 1); nothing where there is no ground.
   std::optional<double> ground(std::ptrdiff_t place, double u, double v) const;
-  /// Returns a half of the cell to the south-east of a post. Precondition: its three posts are there.
-  HalfPlane plane(std::ptrdiff_t place, LatticeTin::Half half) const;
+  /// Returns a half of the cell that lies so far to the east and the south of an observer's. Precondition: its three
+  /// posts are there.
+  HalfPlane plane(std::ptrdiff_t place, std::int64_t columns, std::int64_t rows, LatticeTin::Half half) const;
 
  private:
   std::int64_t quotient_of(std::int64_t columns) const {

@@ -39,8 +39,8 @@ class ParallelEdges {
 
 /// An edge and where it is crossed.
 struct CrossedEdge {
-  std::int64_t column = 0, row = 0;          ///< its first end
-  std::int64_t to_column = 0, to_row = 0;    ///< its second end
+  std::int64_t column = 0, row = 0;        ///< its first end
+  std::int64_t to_column = 0, to_row = 0;  ///< its second end
   double weight = 0;
 };
 
@@ -104,8 +104,9 @@ RayCourse::RayCourse(const RayFan& fan, double azimuth, const PostRows& posts) :
       return Point2{x(place) - static_cast<double>(column), y(place) - static_cast<double>(row)};
     };
     const Point2 from = in_cell(before), to = in_cell(at);
-    crossings_.push_back({from.x, from.y, to.x, to.y});
-    box_.west = std::min({box_.west, edge.column, column}), box_.east = std::max({box_.east, edge.to_column, column + 1});
+    crossings_.push_back({column, row, from.x, from.y, to.x, to.y});
+    box_.west = std::min({box_.west, edge.column, column}),
+    box_.east = std::max({box_.east, edge.to_column, column + 1});
     box_.north = std::min({box_.north, edge.row, row}), box_.south = std::max({box_.south, edge.to_row, row + 1});
     before = at;
   }

@@ -1,6 +1,6 @@
-// The course of a ray over the posts of a lattice: which edges of the lattice's triangles it crosses one after the other,
-// and where the ground between them is looked at. The course is that of every observer that stands at the same place of
-// its cell of posts.
+// The course of a ray over the posts of a lattice: which edges of the lattice's triangles it crosses one after the
+// other, and where the ground between them is looked at. The course is that of every observer that stands at the same
+// place of its cell of posts.
 //
 //   RayFan fan{.spacing = ..., .radius = ..., .rings = 400, ...};
 //   const RayCourse course(fan, azimuth, posts);
@@ -43,10 +43,10 @@ struct RayStep {
   std::ptrdiff_t cell;           ///< the cell before the edge, likewise
   double weight;                 ///< how near to the second end the edge is crossed, 0 to 1
   double distance, per_distance;
-  double drop;         ///< the drop at that distance
-  double before;       ///< the distance of the edge before; 0 at the first
-  double drop_before;  ///< the drop there
-  double ratio;        ///< `before`, divided by what lies between
+  double drop;            ///< the drop at that distance
+  double before;          ///< the distance of the edge before; 0 at the first
+  double drop_before;     ///< the drop there
+  double ratio;           ///< `before`, divided by what lies between
   LatticeTin::Half half;  ///< of a whole cell, which the ray crosses before the edge
   std::uint32_t looks;    ///< how many of the course's looks fall between the edges
 };
@@ -59,8 +59,10 @@ struct RayLook {
   double weight;  ///< a whole number
 };
 
-/// The place of the edges before and after in the cell between them, in cells from its north-western post.
+/// The cell before an edge, counted from the observer's post, and where the ray crosses it: from (u, v) to
+/// (next_u, next_v), in cells east and south of its north-western post.
 struct RayCrossing {
+  std::int64_t column = 0, row = 0;
   double u = 0, v = 0, next_u = 0, next_v = 0;
 };
 
@@ -76,7 +78,7 @@ class RayCourse {
   const std::vector<RayLook>& looks() const { return looks_; }
   /// Returns what all looks count together.
   double weight() const { return weight_; }
-  /// Returns where in its cell a step runs.
+  /// Returns the cell that the course crosses in a step.
   const RayCrossing& crossing(std::size_t step) const { return crossings_[step]; }
   /// Returns all posts of the course, as columns and rows from the observer's post.
   const PostBox& box() const { return box_; }

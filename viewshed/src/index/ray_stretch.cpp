@@ -40,7 +40,8 @@ void RayStretch::pass(std::ptrdiff_t place, double eye, double from, double to, 
   const int there = posts.halves() != nullptr ? posts.halves()[place + s.cell] : LatticeTin::kFalling;
   if ((there & LatticeTin::kRising) != 0) {
     const auto half = (there & LatticeTin::kNorthWest) != 0 ? LatticeTin::kNorthWest : LatticeTin::kSouthEast;
-    ground = ground_over_half(posts.plane(place + s.cell, half), half, course.crossing(step));
+    const RayCrossing& crossing = course.crossing(step);
+    ground = ground_over_half(posts.plane(place, crossing.column, crossing.row, half), half, crossing);
   }
   if (!ground) {
     state.behind = true;
@@ -68,8 +69,7 @@ void RayStretch::pass(std::ptrdiff_t place, double eye, double from, double to, 
     if (look->share < ground->first || look->share > ground->last) continue;
     ++state.looks, state.on_ground += look->weight;
     const double before = look->distance > summit ? std::max(state.top, summit_slope) : state.top;
-    const double seen_at =
-        (ground->at(look->share) + fan.target_height - look->drop - eye) * look->per_distance;
+    const double seen_at = (ground->at(look->share) + fan.target_height - look->drop - eye) * look->per_distance;
     if (seen_at >= before) (state.behind ? state.beyond : state.seen) += look->weight;
   }
   state.top = std::max({state.top, summit_slope, slope(ground->last)});

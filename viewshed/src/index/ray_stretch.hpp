@@ -1,5 +1,5 @@
-// What a ray meets between two edges of a lattice, decided for one observer: where the slope of the ground is greatest in
-// between, or where the cell is not whole. ray_walk.hpp decides all else for many observers at once.
+// What a ray meets between two edges of a lattice, decided for one observer: where the slope of the ground is greatest
+// in between, or where the cell is not whole. ray_walk.hpp decides all else for many observers at once.
 #pragma once
 
 #include <cstddef>

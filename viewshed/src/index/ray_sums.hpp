@@ -1,10 +1,10 @@
 // What an observer sees along all of its rays: the share of the ground that is seen, and how well that is known.
 //
-// The rays are a systematic sample of directions. How far the share may be off is estimated from how much each ray differs
-// from its neighbours (successive differences, Wolter 2007, chapter 8): where neighbours are alike, what lies between them
-// will hardly differ; where they have nothing in common, they are as good as drawn at random. Rays see in steps of their
-// looks, which adds a little. An estimate from a sample is no bound: what is narrower than the gap between two rays, and
-// stands there, is missed.
+// A ray stands for the gap about it, halfway to its neighbours; directions within the gap lie a quarter of its width
+// away on average. Where what is seen changes in proportion to that distance, the squared error of a gap is a quarter
+// of the mean squared difference between neighbouring rays, and the gaps err independently. Rays see in steps of their
+// looks, which adds a little. Errors in either half of a gap partly cancel, so that the error stated is rather too
+// large. It is an estimate from a sample and no bound: what stands between two rays, and is narrower, is missed.
 #pragma once
 
 #include <algorithm>
@@ -34,7 +34,7 @@ class RaySums {
     closed.differ(last_, first_);
     const double p = share();
     const double differences = closed.seen_seen_ - 2 * p * closed.seen_ground_ + p * p * closed.ground_ground_;
-    return std::sqrt(std::max(differences, 0.0) / 2 + of_looks) / on_ground_;
+    return std::sqrt(std::max(differences, 0.0) / 4 + of_looks) / on_ground_;
   }
 
   /// Returns the variance of what an observer's looks count: along each ray, where sight ends is known to one ring, the

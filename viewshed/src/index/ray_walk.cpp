@@ -15,7 +15,7 @@ namespace {
 /// The states of all observers of a walk, while single ones of them are looked after.
 struct RayStates {
   alignas(64) OfObservers<double> top, looks, on_ground, seen, beyond;
-  alignas(64) OfObservers<double> from, to;          ///< heights of the ground at the edges
+  alignas(64) OfObservers<double> from, to;           ///< heights of the ground at the edges
   alignas(64) OfObservers<std::int64_t> behind, odd;  ///< all bits, or none
 };
 

@@ -122,7 +122,7 @@ class TargetIndexWork {
   const IndexRequest& request_;
   const RasterGrid& grid_;
   unsigned targets_;  ///< of each observer
-  bool has_raised_;  ///< whether the request names raised themes
+  bool has_raised_;   ///< whether the request names raised themes
   Statistics read_;
   SurfaceReader reader_;
   std::uint64_t memory_;  ///< bytes, without the rasters
