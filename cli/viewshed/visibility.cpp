@@ -43,7 +43,7 @@ namespace itin::cli {
 
 namespace {
 
-constexpr int kMostTargets = 1 << 20;
+constexpr int kMostTargets = 1 << 20, kFewestRays = 8, kMostRays = 1 << 14;
 
 class VisibilityVerb final : public Verb {
  public:
@@ -70,8 +70,15 @@ class VisibilityVerb final : public Verb {
         ->type_name("METRES");
     app.add_option("--target-height", target_text_, "Height of targets above the ground (default: 0)")
         ->type_name("METRES");
-    app.add_option("--targets", targets_text_,
-                   "Targets at random for every observer; four times as many halve the standard error (default: 128)")
+    app.add_option("--rays", rays_text_,
+                   "Rays from every observer, evenly spread over all directions (default: 128). They need the full "
+                   "detail of a raster without features, and a --cell that is a multiple of the distance between its "
+                   "heights; where there can be none, targets lie at random")
+        ->type_name("N");
+    app.add_option(
+           "--targets", targets_text_,
+           "Targets at random for every observer, in place of rays; four times as many halve the standard error "
+           "(default where there can be no rays: 128)")
         ->type_name("N");
     sheet_.declare_file(app);
     window_.declare(app);
@@ -91,6 +98,10 @@ class VisibilityVerb final : public Verb {
     if (!height_text_.empty()) request_.height = parse_height("--observer-height", height_text_, Range::kNotNegative);
     if (!target_text_.empty())
       request_.target_height = parse_height("--target-height", target_text_, Range::kNotNegative);
+    if (!rays_text_.empty() && !targets_text_.empty())
+      throw InputError("--rays and --targets: observers have either; give one of them");
+    if (!rays_text_.empty())
+      request_.rays = static_cast<unsigned>(parse_whole("--rays", rays_text_, kFewestRays, kMostRays));
     if (!targets_text_.empty())
       request_.targets = static_cast<unsigned>(parse_whole("--targets", targets_text_, 1, kMostTargets));
     if (!names_geotiff(output_))
@@ -112,8 +123,9 @@ class VisibilityVerb final : public Verb {
                         {"cell_m", request_.cell_size},
                         {"radius_m", request_.radius},
                         {"observer_height_m", request_.height},
-                        {"target_height_m", request_.target_height},
-                        {"targets", request_.targets}};
+                        {"target_height_m", request_.target_height}};
+    if (request_.rays) parameters["rays"] = *request_.rays;
+    if (request_.targets) parameters["targets"] = *request_.targets;
     parameters.update(sheet_.parameters());
     parameters.update(window_.parameters());
     parameters.update(detail_.parameters());
@@ -124,7 +136,7 @@ class VisibilityVerb final : public Verb {
 
   std::unique_ptr<viewshed::Tasks> divide(std::uint64_t most_cells, Progress& progress) override {
     complete_request(progress);
-    return std::make_unique<viewshed::IndexTasks>(*opened_, request_, most_cells);
+    return std::make_unique<viewshed::IndexTasks>(*opened_, request_, most_cells, progress);
   }
   void take_answers(viewshed::Tasks& answered) override { answered_ = &dynamic_cast<viewshed::IndexTasks&>(answered); }
 
@@ -156,6 +168,7 @@ class VisibilityVerb final : public Verb {
     document["refraction"] = earth_document(earth_.earth());
     document["grid"] = viewshed::grid_document(index.grid);
     document["observers"] = index.observers;
+    document["sample"] = sample_document(index.sample);
     document["share_without_data"] = missing.share();
     document["mean_share"] = index.mean;
     document["mean_share_standard_error"] = index.mean_error;
@@ -166,11 +179,13 @@ class VisibilityVerb final : public Verb {
     if (!sheet_.file().empty()) document["outputs"].push_back(sheet_.file());
     document["statistics"] = viewshed::statistics_document({index.retrieval, index.triangles, index.lines});
     result.text = fmt::format(
-        "{}: {}\non average, one of {} sees {:.2f} % (standard error {:.2f}) of the ground within {:g} m\n{}{}{}, {}; "
+        "{}: {}\non average, one of {} sees {:.2f} % (standard error {:.2f}) of the ground within {:g} m\n{}{}{}{}, "
+        "{}; "
         "{}\n",
         output_, readable_bytes(std::filesystem::file_size(output_)), counted(index.observers, "observer"),
         100 * index.mean, 100 * index.mean_error, request_.radius, undecided_in_words(index), missing_in_words(missing),
-        counted(index.triangles, "triangle"), counted(index.lines, "line"), earth_.earth().convention());
+        sampled_in_words(index.sample), counted(index.triangles, "triangle"), counted(index.lines, "line"),
+        earth_.earth().convention());
     return result;
   }
 
@@ -195,6 +210,19 @@ class VisibilityVerb final : public Verb {
     const Box observers = index.grid.bounds();
     const double reach = request_.radius;
     return {observers.xmin - reach, observers.ymin - reach, observers.xmax + reach, observers.ymax + reach};
+  }
+  static std::string each_in_words(const viewshed::IndexSample& sample) {
+    return sample.rays > 0 ? counted(sample.rays, "ray") : counted(sample.targets, "target") + " at random";
+  }
+  static std::string sampled_in_words(const viewshed::IndexSample& sample) {
+    const std::string why = sample.without_rays.empty() ? "" : ", without rays, for " + in_options(sample.without_rays);
+    return fmt::format("found by {} for each observer{}\n", each_in_words(sample), why);
+  }
+  static Document sample_document(const viewshed::IndexSample& sample) {
+    Document document{{"by", sample.rays > 0 ? "rays" : "targets"},
+                      {"for_each_observer", sample.rays > 0 ? sample.rays : sample.targets}};
+    if (!sample.without_rays.empty()) document["without_rays_for"] = in_options(sample.without_rays);
+    return document;
   }
   static std::string missing_in_words(const viewshed::MissingGround& missing) {
     if (missing.share() == 0) return "";
@@ -244,7 +272,7 @@ class VisibilityVerb final : public Verb {
     block.statement = viewshed::statement_of(metadata, request_.themes, request_.detail);
     block.facts = {{"Observers", fmt::format("at the centres of cells of {:g} m, {:g} m above the ground",
                                              request_.cell_size, request_.height)},
-                   {"Targets", fmt::format("{} at random for each observer, {:g} m above the ground", request_.targets,
+                   {"Targets", fmt::format("{} for each observer, {:g} m above the ground", each_in_words(index.sample),
                                            request_.target_height)},
                    {"Radius", fmt::format("{:g} km", request_.radius / 1000)},
                    {"Undecided", fmt::format("{:.2f} % on average, which ground without data alone could hide",
@@ -257,7 +285,7 @@ class VisibilityVerb final : public Verb {
                policy_.overwrite);
   }
 
-  std::string store_, output_, cell_text_, radius_text_, height_text_, target_text_, targets_text_;
+  std::string store_, output_, cell_text_, radius_text_, height_text_, target_text_, rays_text_, targets_text_;
   MemoryOption memory_;
   WindowOptions window_;
   DetailOptions detail_;

@@ -81,7 +81,7 @@ class VisibilityIndexTest : public testing::Test {
     for (const std::uint64_t most_cells : {50U, 7U}) {
       const Store store(path_);
       NoProgress progress;
-      IndexTasks tasks(store, request, most_cells);
+      IndexTasks tasks(store, request, most_cells, progress);
       EXPECT_GT(tasks.list().size(), 2U);
       for (std::size_t i = tasks.list().size(); i-- > 0;) tasks.add(i, tasks.answer(i, progress));
       expect_same(tasks.take(), whole);
@@ -97,7 +97,7 @@ class VisibilityIndexTest : public testing::Test {
     };
     const RetrievedSurface full = surface(request.themes), bare = surface(ThemeChoice::none());
     const LineTester screen(full, request.earth, 0), ground(bare, request.earth, 0);
-    const VisibilitySampler sampler(screen, ground, {request.radius, request.target_height, request.targets},
+    const VisibilitySampler sampler(screen, ground, {request.radius, request.target_height, *request.targets},
                                     request.nodata);
     int visible = 0, hidden = 0, undecided = 0;
     for (const Point2 eye : {Point2{301500, 197900}, {302225, 198725}, {301325, 197425}, {302800, 197300}}) {

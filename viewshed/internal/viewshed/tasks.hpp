@@ -25,6 +25,7 @@
 namespace itin::viewshed {
 
 class IndexMerge;
+struct IndexLayout;
 
 /// What a task decides, and about what that takes.
 struct Task {
@@ -76,7 +77,7 @@ class ViewshedTasks final : public Tasks {
 class IndexTasks final : public Tasks {
  public:
   /// The store must outlive it. Throws InputError as visibility_index() does.
-  IndexTasks(const Store& store, const IndexRequest& request, std::uint64_t most_cells);
+  IndexTasks(const Store& store, const IndexRequest& request, std::uint64_t most_cells, Progress& progress);
   ~IndexTasks() override;
 
   const std::vector<Task>& list() const override { return list_; }
@@ -88,7 +89,7 @@ class IndexTasks final : public Tasks {
  private:
   const Store& store_;
   IndexRequest request_;
-  RasterGrid grid_;
+  std::unique_ptr<const IndexLayout> layout_;
   std::vector<Task> list_;
   std::unique_ptr<IndexMerge> merge_;
 };

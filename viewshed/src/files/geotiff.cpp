@@ -284,7 +284,8 @@ void write_geotiff(const std::string& path, const VisibilityIndex& index, const 
   description.metadata = {{"radius_m", fmt::format("{:g}", request.radius)},
                           {"observer_height_m", fmt::format("{:g}", request.height)},
                           {"target_height_m", fmt::format("{:g}", request.target_height)},
-                          {"targets", fmt::format("{}", request.targets)},
+                          {index.sample.rays > 0 ? "rays" : "targets",
+                           fmt::format("{}", std::max(index.sample.rays, index.sample.targets))},
                           {"nodata_rule", nodata_text(request.nodata)},
                           {"refraction", request.earth.convention()}};
   description.metadata.insert(description.metadata.end(), options.metadata.begin(), options.metadata.end());

@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include <viewshed/missing_ground.hpp>
 #include <viewshed/visibility_index.hpp>
 
@@ -5,8 +7,8 @@ namespace itin::viewshed {
 
 MissingGround missing_ground(const VisibilityIndex& index) {
   MissingGround missing;
-  missing.with_ground = index.lines;
-  missing.without_ground = index.targets - index.lines;
+  missing.with_ground = static_cast<std::uint64_t>(std::llround(index.ground * static_cast<double>(index.targets)));
+  missing.without_ground = index.targets - missing.with_ground;
   return missing;
 }
 

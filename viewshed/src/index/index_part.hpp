@@ -1,9 +1,10 @@
-// Parts of a visibility index, which may be sampled by anyone in any order, and all of them together.
+// Parts of a visibility index, which may be computed by anyone in any order, and all of them together.
 //
-//   const RasterGrid grid = index_grid(store, request);
-//   IndexMerge merge(grid);
-//   for (const CellRectangle& cells : some_parts_of(grid)) merge.add(index_part(store, request, grid, cells,
-//   progress)); const VisibilityIndex index = merge.take();
+//   const IndexLayout layout = lay_out_index(store, request, progress);
+//   IndexMerge merge(layout);
+//   for (const CellRectangle& cells : some_parts_of(layout.grid))
+//     merge.add(index_part(store, request, layout, cells, progress));
+//   const VisibilityIndex index = merge.take();
 #pragma once
 
 #include <cstdint>
@@ -14,47 +15,59 @@
 #include <itin/store.hpp>
 #include <viewshed/visibility_index.hpp>
 
+#include "index/index_layout.hpp"
 #include "line/cell_tiles.hpp"
 
 namespace itin::viewshed {
 
 /// What VisibilityIndex has of each cell.
 struct IndexShares {
-  std::vector<float> share, standard_error, undecided;
+  explicit IndexShares(std::size_t cells);
+
+  std::vector<float> share, standard_error, undecided;  ///< NaN where there is no observer
 };
 
-/// What VisibilityIndex counts.
+/// What VisibilityIndex counts. All are whole numbers, so that the sums of parts do not depend on how the index is
+/// divided.
 struct IndexCounts {
   bool any_eye = false;  ///< whether some cell's centre lies on ground in the area
   std::uint64_t targets = 0, lines = 0, triangles = 0;
   RetrievalStatistics retrieval;
+  /// The looks along each ray, summed over the observers, as RayCourse counts them: those on ground, and those that are
+  /// seen. Empty where there are no rays.
+  std::vector<std::uint64_t> on_ground_of_ray, seen_of_ray;
+
+  void make_rays(unsigned rays) { on_ground_of_ray.resize(rays), seen_of_ray.resize(rays); }
+  IndexCounts& operator+=(const IndexCounts& other);
 };
 
 struct IndexPart {
+  explicit IndexPart(const CellRectangle& rectangle) : cells(rectangle), shares(rectangle.count()) {}
+  /// The number of a cell of the whole grid among these cells.
+  std::size_t number(RasterGrid::Cell cell) const {
+    return static_cast<std::size_t>((cell.row - cells.row) * cells.columns + cell.column - cells.column);
+  }
+
   CellRectangle cells;  ///< which cells of the whole grid it has
   IndexShares shares;   ///< what these have, row by row
   IndexCounts counts = {};
 };
 
-/// Returns the cells of the request. Throws InputError for values out of range, and where the memory does not hold the
-/// rasters.
-RasterGrid index_grid(const Store& store, const IndexRequest& request);
-
-/// Samples the observers of some cells of index_grid(). What a cell's observer sees does not depend on the others.
-/// Throws what visibility_index() throws; a part may have no ground.
-IndexPart index_part(const Store& store, const IndexRequest& request, const RasterGrid& grid,
+/// Looks from some cells of the layout's grid. What a cell's observer sees does not depend on the others. Throws what
+/// visibility_index() throws; a part may have no ground.
+IndexPart index_part(const Store& store, const IndexRequest& request, const IndexLayout& layout,
                      const CellRectangle& cells, Progress& progress);
 
 class IndexMerge {
  public:
-  explicit IndexMerge(const RasterGrid& grid);
+  explicit IndexMerge(IndexLayout layout);
 
   void add(const IndexPart& part);
-  /// The whole index. Throws InputError as visibility_index() does where there is no ground.
+  /// Returns the whole index. Throws InputError as visibility_index() does where there is no ground.
   VisibilityIndex take();
 
  private:
-  RasterGrid grid_;
+  IndexLayout layout_;
   IndexShares shares_;
   IndexCounts counts_;
 };

@@ -27,7 +27,7 @@ class IndexPlan {
     std::vector<IndexSegment> segments;
     for (const Block& block : parts_that_fit(
              Block{cells, {}, 0}, [&](Block& b) { return fits(b); }, [&](const Block& b) { return cut(b); }))
-      if (!block.ground.empty()) segments.push_back({block.cells, Window::box(block.ground), block.points});
+      if (!block.ground.empty()) segments.push_back(segment_of(block));
     return segments;
   }
 
@@ -38,13 +38,15 @@ class IndexPlan {
     std::uint64_t points = 0;  ///< how many points that ground has
   };
 
+  static IndexSegment segment_of(const Block& block) { return {block.cells, Window::box(block.ground), block.points}; }
+
   bool fits(Block& block) const {
     const Box eyes = eyes_of(block.cells);
     if (eyes.empty()) return true;
     const double reach = request_.radius + margin_;
     block.ground = {eyes.xmin - reach, eyes.ymin - reach, eyes.xmax + reach, eyes.ymax + reach};
     block.points = store_.points_about(level_, block.ground);
-    return fits_(block.points, block.cells.count() * request_.targets);
+    return fits_(segment_of(block));
   }
 
   std::pair<Block, Block> cut(const Block& block) const {

@@ -22,8 +22,8 @@ struct IndexSegment {
   std::uint64_t points;  ///< about how many points of the surface it holds
 };
 
-/// Whether a surface of about `points` points fits into the memory, where `lines` sight lines are tested over it.
-using SurfaceFits = std::function<bool(std::uint64_t points, std::uint64_t lines)>;
+/// Tells whether a segment's surface fits into the memory, beside what it takes to decide its sight lines.
+using SurfaceFits = std::function<bool(const IndexSegment& segment)>;
 
 /// Takes the cells that lie in the area, halved until the ground about each block fits. Throws InputError where the
 /// ground about a single observer does not.

@@ -8,7 +8,8 @@ namespace {
 
 constexpr double kPost = 5e-8, kTrianglesPoint = 2.5e-6, kEnvelopePoint = 4e-6;
 constexpr double kBinnedPost = 2.5e-8, kBinnedTrianglesPoint = 1.1e-6;
-constexpr double kSweptCell = 2.5e-8, kCellOverTriangles = 3e-7, kLine = 1.5e-6, kSweptLine = 1e-7, kRay = 1e-6;
+constexpr double kSweptCell = 2.5e-8, kCellOverTriangles = 3e-7, kLine = 1.5e-6, kSweptLine = 1e-7, kRay = 1e-6,
+                 kLook = 2e-9;
 
 double effort_of_cell(const Request& request, SurfaceForm form) {
   constexpr double kBlocker = 1e-6, kZone = 3e-6, kOdds = 5e-6, kLosses = 4e-5;
@@ -43,6 +44,10 @@ double effort_of_envelope(std::uint64_t points) {
 
 double effort_of_lines(double lines) {
   return kLine * lines;
+}
+
+double effort_of_looks(double looks) {
+  return kLook * looks;
 }
 
 double effort_of_swept_lines(double lines) {

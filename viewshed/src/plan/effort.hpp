@@ -26,6 +26,8 @@ double effort_of_envelope(std::uint64_t points);
 /// Deciding this number of sight lines: each by itself, or all about an eye by a sweep.
 double effort_of_lines(double lines);
 double effort_of_swept_lines(double lines);
+/// Looking so often at the ground along rays over the posts of a lattice, from many observers at once.
+double effort_of_looks(double looks);
 /// Reading a surface of so many points, and deciding the request for every observer on this number of cells.
 Effort effort_of_viewshed(const Request& request, std::uint64_t points, std::uint64_t cells, SurfaceForm form);
 

@@ -1,0 +1,93 @@
+#include "index/ray_walk.hpp"
+
+#include <bit>
+#include <cstring>
+
+#include <itin/precondition.hpp>
+
+#include "index/ray_stretch.hpp"
+#include "line/infinity.hpp"
+
+namespace itin::viewshed {
+
+namespace {
+
+/// The states of all observers of a walk, while single ones of them are looked after.
+struct RayStates {
+  alignas(64) OfObservers<double> top, looks, on_ground, seen, beyond;
+  alignas(64) OfObservers<double> from, to;           ///< heights of the ground at the edges
+  alignas(64) OfObservers<std::int64_t> behind, odd;  ///< all bits, or none
+};
+
+/// Lets the observers pass a stretch that are odd, of `count` from number `first` on.
+[[gnu::noinline]] void pass_singly(const RayStretch& stretch, const RayWalk& walk, std::size_t first, std::size_t count,
+                                   RayStates& states) {
+  for (std::size_t i = 0; i < count; ++i) {
+    if (states.odd[i] == 0) continue;
+    RayState state{states.top[i],       states.behind[i] != 0, states.looks[i],
+                   states.on_ground[i], states.seen[i],        states.beyond[i]};
+    stretch.pass(walk.place + static_cast<std::ptrdiff_t>(first + i), walk.eye[first + i], states.from[i], states.to[i],
+                 state);
+    states.top[i] = state.top, states.behind[i] = state.behind ? -1 : 0;
+    states.looks[i] = state.looks, states.on_ground[i] = state.on_ground;
+    states.seen[i] = state.seen, states.beyond[i] = state.beyond;
+  }
+}
+
+// What follows is compiled once for each set of instructions.
+
+namespace baseline {
+#define ITIN_INSTRUCTIONS
+constexpr std::size_t kLanes = 2;
+#include "index/ray_walk_lanes.inc"
+#undef ITIN_INSTRUCTIONS
+}  // namespace baseline
+
+#ifdef __x86_64__
+namespace avx2 {
+#define ITIN_INSTRUCTIONS [[gnu::target("avx2")]]
+constexpr std::size_t kLanes = 4;
+#include "index/ray_walk_lanes.inc"
+#undef ITIN_INSTRUCTIONS
+}  // namespace avx2
+
+namespace avx512 {
+#define ITIN_INSTRUCTIONS [[gnu::target("avx512f,avx512bw,avx512dq,avx512vl")]]
+constexpr std::size_t kLanes = 8;
+#include "index/ray_walk_lanes.inc"
+#undef ITIN_INSTRUCTIONS
+}  // namespace avx512
+#endif
+
+}  // namespace
+
+std::span<const Instructions> instructions_here() {
+  static constexpr std::array kAll{Instructions::kBaseline, Instructions::kAvx2, Instructions::kAvx512};
+  static const std::size_t count = [] {
+#ifdef __x86_64__
+    if (!__builtin_cpu_supports("avx2")) return 1;
+    const bool wide = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
+                      __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl");
+    return wide ? 3 : 2;
+#else
+    return 1;
+#endif
+  }();
+  return std::span(kAll).first(count);
+}
+
+void walk_ray(const RayCourse& course, const PostRows& posts, bool whole, Instructions instructions, RayWalk& walk) {
+  ITIN_PRECONDITION(whole || posts.halves() != nullptr);
+  switch (instructions) {
+#ifdef __x86_64__
+    case Instructions::kAvx512:
+      return avx512::walk_all(course, posts, whole, walk);
+    case Instructions::kAvx2:
+      return avx2::walk_all(course, posts, whole, walk);
+#endif
+    default:
+      return baseline::walk_all(course, posts, whole, walk);
+  }
+}
+
+}  // namespace itin::viewshed
