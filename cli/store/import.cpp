@@ -132,7 +132,8 @@ class ImportVerb final : public Verb {
     app.add_option("--theme", options_.theme, "Name of the lines' theme (default: the kind)")->type_name("NAME");
     app.add_option(
            "--remove", options_.remove,
-           "Features that stand to take out of the store first, as if they had never been imported: themes, or files by "
+           "Features that stand to take out of the store first, as if they had never been imported: themes, or files "
+           "by "
            "the names that itin info has. With the name of the sources' own theme, these take the place of all that it "
            "has")
         ->type_name("NAME,...")

@@ -91,8 +91,8 @@ struct ImportOptions {
   /// Features to take out before the sources are added: names of themes whose features stand, or of files among the
   /// sources of such themes. The store is then as if they had never been imported. With it there may be no sources.
   std::vector<std::string> remove = {};
-  bool stay = false;          ///< import_lines() of contours, breaklines and water: they stay within the coverage of
-                              ///< sources that replace others
+  bool stay = false;  ///< import_lines() of contours, breaklines and water: they stay within the coverage of
+                      ///< sources that replace others
   std::vector<double> tolerances = {};  ///< metres; default: those of 0.5,1,2,4,8,16,32 that are no less than the
                                         ///< resolution. An existing store keeps its own.
   double resolution = 0.01;             ///< metres; an existing store keeps its own

@@ -11,8 +11,8 @@
 
 namespace itin {
 
-/// Warns about features of the sources that were added, given by their numbers, and about themes of which fewer features
-/// stand than in the store before, because the ground has changed. `before` may be null.
+/// Warns about features of the sources that were added, given by their numbers, and about themes of which fewer
+/// features stand than in the store before, because the ground has changed. `before` may be null.
 std::vector<std::string> raised_warnings(const RaisedFeaturesReport& raised, const StoreMetadata* before,
                                          const std::vector<std::uint16_t>& added);
 

@@ -25,7 +25,8 @@ bool stands(const SourceInfo& source, const StoreMetadata& metadata) {
   sort_unique(names);
   throw InputError(
       fmt::format("`remove` {}: {} has no theme of features that stand, nor a source of such, of this name; {}", name,
-                  store.path(), names.empty() ? "it has none at all" : fmt::format("it has {}", fmt::join(names, ", "))),
+                  store.path(),
+                  names.empty() ? "it has none at all" : fmt::format("it has {}", fmt::join(names, ", "))),
       "remove");
 }
 

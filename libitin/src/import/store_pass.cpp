@@ -232,12 +232,14 @@ void StorePass::add_lines(LineLayer& layer, Progress& progress) {
   const std::vector<std::size_t> places =
       places_among(collection_.fields(theme), layer.fields().fields(), layer.path());
   std::uint32_t feature = kNoFeature;
-  const LineLayer::Sink sink{
-      [&](std::span<const GridPoint> line) {
-        collection_.add(theme, next_number(), feature, line);
-        collection_.require_room(layer.path());
-      },
-      [&](FeatureRecord record) { feature = collection_.add_feature(theme, next_number(), arranged(std::move(record), places)); }};
+  const LineLayer::Sink sink{[&](std::span<const GridPoint> line) {
+                               collection_.add(theme, next_number(), feature, line);
+                               collection_.require_room(layer.path());
+                             },
+                             [&](FeatureRecord record) {
+                               feature =
+                                   collection_.add_feature(theme, next_number(), arranged(std::move(record), places));
+                             }};
   const ReadCounts counts =
       layer.read({additions_.plan.grid, additions_.plan.crs_wkt, &additions_.plan.scale->meter()}, sink, progress);
   require_true_scale(additions_.plan, layer.path(), counts.bounds);

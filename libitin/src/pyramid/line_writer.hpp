@@ -24,8 +24,8 @@ class LineWriter {
              PyramidReport& report)
       : lines_(lines), placed_(placed), ground_(ground), writer_(writer), report_(report) {}
 
-  /// Writes vertices, parts and segments. `segments` are the ground's outline and the segments of the terrain's lines at
-  /// all levels; `features` are those of all segments, ascending.
+  /// Writes vertices, parts and segments. `segments` are the ground's outline and the segments of the terrain's lines
+  /// at all levels; `features` are those of all segments, ascending.
   void run(std::vector<Segment> segments, std::span<const SegmentFeature> features, Progress& progress);
 
  private:

@@ -140,9 +140,8 @@ std::vector<Leaf> leaves_under(const std::vector<PlacedPart>& parts, const Point
   for (const PlacedPart& part : parts)
     for (const GridPolygon& mask : part.masks) ground.leaves({}, box_about(mask), leaves);
   std::sort(leaves.begin(), leaves.end(), [](const Leaf& a, const Leaf& b) { return a.key < b.key; });
-  leaves.erase(
-      std::unique(leaves.begin(), leaves.end(), [](const Leaf& a, const Leaf& b) { return a.key == b.key; }),
-      leaves.end());
+  leaves.erase(std::unique(leaves.begin(), leaves.end(), [](const Leaf& a, const Leaf& b) { return a.key == b.key; }),
+               leaves.end());
   return leaves;
 }
 

@@ -258,8 +258,8 @@ void divide(std::span<const std::uint64_t> codes, const PointIndex& ground,
   const GridBox box = box_of(codes, position_of);
   std::vector<Leaf> leaves;
   if (codes.size() > 1) ground.leaves({}, box, leaves);
-  const std::uint64_t points = std::accumulate(
-      leaves.begin(), leaves.end(), std::uint64_t{0}, [](std::uint64_t sum, const Leaf& l) { return sum + l.points; });
+  const std::uint64_t points = std::accumulate(leaves.begin(), leaves.end(), std::uint64_t{0},
+                                               [](std::uint64_t sum, const Leaf& l) { return sum + l.points; });
   if (points <= kMostDraped) return runs.push_back(codes);
   const Cell cell = cell_about(box);
   for (int i = 0; i < 4; ++i) {

@@ -276,7 +276,8 @@ std::vector<std::uint32_t> renumber_features(CollectedTheme& theme, const std::v
   return inverse(order);
 }
 
-/// Puts a theme's fields in the order of its sources, as if these had come in that order, and drops those that none has.
+/// Puts a theme's fields in the order of its sources, as if these had come in that order, and drops those that none
+/// has.
 void rearrange_fields(CollectedTheme& theme, const std::vector<SourceInfo>& sources) {
   std::vector<AttributeField> fields;
   std::vector<std::vector<std::size_t>> before(sources.size()), now(sources.size());
@@ -322,8 +323,8 @@ void LineCollection::renumber(const std::vector<std::uint16_t>& numbers, std::ve
 }
 
 std::uint32_t LineCollection::theme(const std::string& name, ThemeKind kind, bool raised) {
-  const auto found =
-      std::find_if(themes_.begin(), themes_.end(), [&](const CollectedTheme& t) { return t.info.name == name && !t.gone; });
+  const auto found = std::find_if(themes_.begin(), themes_.end(),
+                                  [&](const CollectedTheme& t) { return t.info.name == name && !t.gone; });
   if (found == themes_.end()) {
     if (themes_.size() == format::kMaxThemes)
       throw InputError(fmt::format("a store holds at most {} themes", format::kMaxThemes));

@@ -49,9 +49,9 @@ struct CollectedTheme {
   std::vector<StoredFootprint> footprints{};
   ThemeFeatures features{};
   std::vector<std::uint16_t> source_of_feature{};  ///< by number of feature
-  bool gone = false;  ///< whether nothing is left of it, as its sources are left out
-  std::uint16_t first_source = 0;  ///< chosen by a rule that does not depend on the order of import
-  ChangedGround changed{};         ///< what its raised features change
+  bool gone = false;                               ///< whether nothing is left of it, as its sources are left out
+  std::uint16_t first_source = 0;                  ///< chosen by a rule that does not depend on the order of import
+  ChangedGround changed{};                         ///< what its raised features change
 };
 
 class LineCollection {
