@@ -84,6 +84,7 @@ class ImportVerb final : public Verb {
     if (options_.height_threshold) parameters["height_threshold_m"] = *options_.height_threshold;
     given("height_rounding", height_rounding_);
     given("source_note", options_.source_note);
+    if (!options_.remove.empty()) parameters["remove"] = options_.remove;
     if (options_.band) parameters["band"] = *options_.band;
     given("id_field", options_.id_field);
     given("name_field", options_.name_field);
@@ -116,8 +117,9 @@ class ImportVerb final : public Verb {
   void declare_sources(CLI::App& app) {
     begin_group(app, "Sources");
     writes(app.add_option("STORE", store_, "The store, created if there is none")->required());
-    reads(app.add_option("SOURCE", options_.sources, "Rasters, point files, LAS, LAZ, or layers of lines and polygons")
-              ->required());
+    reads(app.add_option("SOURCE", options_.sources,
+                         "Rasters, point files, LAS, LAZ, or layers of lines and polygons; none is needed where "
+                         "--remove is given"));
     app.add_option(
            "--kind", kind_,
            "What the sources are: terrain (default); contours, breaklines or water, which are lines with heights "
@@ -128,6 +130,14 @@ class ImportVerb final : public Verb {
            "above the terrain")
         ->type_name("KIND");
     app.add_option("--theme", options_.theme, "Name of the lines' theme (default: the kind)")->type_name("NAME");
+    app.add_option(
+           "--remove", options_.remove,
+           "Features that stand to take out of the store first, as if they had never been imported: themes, or files "
+           "by "
+           "the names that itin info has. With the name of the sources' own theme, these take the place of all that it "
+           "has")
+        ->type_name("NAME,...")
+        ->delimiter(',');
     app.add_option("--crs", options_.crs,
                    "CRS of the sources, in place of what they say themselves; a part that it lacks, horizontal or "
                    "vertical, stays theirs")
@@ -315,6 +325,8 @@ class ImportVerb final : public Verb {
     document["line_pieces_replaced"] = report.made_room;
     document["isolated"] = report.isolated;
     document["features"] = report.features;
+    document["removed"] = report.removed;
+    document["ground_made_again"] = report.ground_made_again.empty() ? Document() : Document(report.ground_made_again);
     document["refused"] = report.refused;
     if (report.cells > 0) {
       document["cells"] = {{"read", report.cells}, {"low", report.low_cells}};
@@ -339,7 +351,8 @@ class ImportVerb final : public Verb {
         fmt::format("{}: {} vertices in {}, {:.2f} bytes per vertex, {}{}\n", store_, grouped(report.vertices),
                     readable_bytes(report.store_bytes), bytes_per_vertex(report), report.crs_name,
                     report.crs_chosen ? " (chosen; see --to-crs)" : "");
-    text += fmt::format("read {} in {:.1f} s", text_of_read(report), report.seconds);
+    text += options_.sources.empty() ? fmt::format("done in {:.1f} s", report.seconds)
+                                     : fmt::format("read {} in {:.1f} s", text_of_read(report), report.seconds);
     const auto mention = [&](std::uint64_t count, const char* noun, const char* what) {
       if (count > 0) text += fmt::format(", {} {}", counted(count, noun), what);
     };
@@ -350,10 +363,13 @@ class ImportVerb final : public Verb {
     mention(report.replaced, "point", "replaced");
     mention(report.made_room, "piece", "of lines replaced by finer ground");
     mention(report.isolated, "isolated point", "left out");
+    mention(report.removed, "feature", "removed");
     mention(report.refused, "feature", "left out by this and earlier imports");
     mention(report.crossings, "crossing", "resolved");
     mention(report.left_out, "segment", "of lines left out beyond the ground");
     text += flat_text(report) + cells_text(report);
+    if (!report.ground_made_again.empty())
+      text += fmt::format("\nthe ground was made again, as {}", report.ground_made_again);
     text += metadata.themes.empty() ? "\n\n" : "\n" + themes_table(metadata) + "\n";
     return text + levels_table(metadata);
   }

@@ -105,6 +105,7 @@ def import_features(
     attributes: Sequence[str] | None = None,
     repair: bool = True,
     stay: bool = False,
+    remove: Sequence[str] = (),
     memory_bytes: int = 4 << 30,
     progress: Progress | None = None,
 ) -> ImportReport:
@@ -134,6 +135,7 @@ def import_features(
         attributes: Fields to keep. None: all with numbers, texts, dates and times.
         repair: Infer points where the triangles of contours are flat.
         stay: Lines stay within the coverage of sources that replace others.
+        remove: Features that stand to take out first: themes, or files by the names that the store has.
 
     The other arguments are those of ``import_terrain()``, and it raises the same.
     """

@@ -41,6 +41,7 @@ void take_standing(const py::dict& fields, ImportOptions& o) {
   take(fields, "attributes", o.attributes);
   take(fields, "repair", o.repair);
   take(fields, "stay", o.stay);
+  take(fields, "remove", o.remove);
 }
 
 ImportOptions options_of(const py::dict& fields) {

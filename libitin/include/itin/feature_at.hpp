@@ -24,7 +24,7 @@ namespace itin {
 class Store;
 
 struct FeatureAt {
-  std::int64_t number = 0;  ///< the feature's number in its theme, from 0, in the order of import
+  std::int64_t number = 0;  ///< the feature's number in its theme, from 0, in the order of its sources
   std::string name;         ///< as the source calls it: the name field's value, or "feature 12" by its number in the
                             ///< source
   std::string id;           ///< the id field's value, or the feature's number in the source; empty where the import

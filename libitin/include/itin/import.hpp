@@ -8,10 +8,11 @@
 // Importing into an existing store adds to it. Vertices, triangles, levels and certificates (of terrain, lines and
 // standing features) depend on the set of sources and their options alone, whatever the order and the portions in which
 // they were imported: a store keeps unchanged what it leaves out, cuts or moves, and every import begins with all of
-// it. The order shows in the numbers of sources and features, and in what the first import chooses for a store: CRS,
-// grid and levels. Stores of format 3 and older have not kept such data: what earlier imports made of their sources
-// counts as what was imported. Adding rebuilds the pyramid of the whole store; it takes as long as importing everything
-// anew.
+// it. The order shows in what the first import chooses for a store, CRS, grid and levels, and nowhere else.
+//
+// Where no line lies on the ground (contours, breaklines, water, roads, outlines without
+// heights), features that stand come and go, and the ground stays as it is. In all other cases adding makes the whole
+// store again; it takes as long as importing everything anew.
 #pragma once
 
 #include <cstdint>
@@ -87,8 +88,11 @@ struct ImportOptions {
   std::string sea_area = {};  ///< polygons, as text or a file: the sea fills missing ground within all of them, and
                               ///< nowhere else
   bool replace = false;       ///< these sources take the place of others that are no finer in their coverage
-  bool stay = false;          ///< import_lines() of contours, breaklines and water: they stay within the coverage of
-                              ///< sources that replace others
+  /// Features to take out before the sources are added: names of themes whose features stand, or of files among the
+  /// sources of such themes. The store is then as if they had never been imported. With it there may be no sources.
+  std::vector<std::string> remove = {};
+  bool stay = false;  ///< import_lines() of contours, breaklines and water: they stay within the coverage of
+                      ///< sources that replace others
   std::vector<double> tolerances = {};  ///< metres; default: those of 0.5,1,2,4,8,16,32 that are no less than the
                                         ///< resolution. An existing store keeps its own.
   double resolution = 0.01;             ///< metres; an existing store keeps its own
@@ -111,6 +115,7 @@ struct ImportReport {
   std::uint64_t isolated = 0;       ///< points left out in this import because no ground could be triangulated about
                                     ///< them
   std::uint64_t features = 0;       ///< line features read, or features that stand now
+  std::uint64_t removed = 0;        ///< features taken out, whether they stood or not
   std::uint64_t refused = 0;        ///< features that could not stand, of all imports so far; warnings say why
   std::uint64_t cells = 0;          ///< cells with a height in rasters of heights that stand
   std::uint64_t low_cells = 0;      ///< cells among them that are known not to reach the threshold
@@ -125,6 +130,9 @@ struct ImportReport {
   std::uint64_t sea = 0;            ///< vertices of the sea among them
   std::uint64_t store_bytes = 0;
   double seconds = 0;
+  /// Why the ground of a store that was there was made again; empty where the ground stayed as it was, and for a new
+  /// store.
+  std::string ground_made_again;
   std::vector<LevelInfo> levels;
   std::vector<std::string> warnings;  ///< one line each
 };

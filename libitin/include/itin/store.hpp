@@ -57,6 +57,11 @@ struct SourceInfo {
   bool replaces = false;              ///< took the place of coarser ground
   bool makes_room = false;            ///< its lines end at the border of ground that replaces others
   std::string note;                   ///< product, date and licence, as the import or the file says; may be empty
+  /// How many features with a number the source has given its theme, and the fields that it has for them. A theme's
+  /// features are numbered in the order of its sources.
+  std::uint64_t features = 0;
+  std::vector<AttributeField> fields = {};
+  std::optional<double> wall_offset = {};  ///< metres, where its import said so; see ThemeInfo::wall_offset
 };
 
 struct StoreMetadata {
@@ -67,7 +72,7 @@ struct StoreMetadata {
   std::optional<GridScale> scale;  ///< over the bounds; nothing where the CRS does not tell, and in older stores
   std::vector<LevelInfo> levels;   ///< level 0 (tolerance 0) first, then coarser and coarser
   int fine_levels = 1;  ///< the first level whose vertices are stored a second time, to be read by themselves
-  std::vector<SourceInfo> sources;  ///< also the import history, in order
+  std::vector<SourceInfo> sources;  ///< those of points first; the order knows none of import
   std::vector<ThemeInfo> themes;    ///< the themes of the terrain first, then by name
   std::vector<ThemePart> parts;     ///< the parts of raised themes, in the themes' order, then the finest first
   bool has_foundations = false;     ///< some buildings stand on flat foundations, which may cut into the ground
@@ -127,8 +132,8 @@ std::vector<Damage> check(const Store& store, Progress& progress);
 
 /// Returns 32 hexadecimal digits that tell what the store holds: XXH3-128 over every row and over the metadata but for
 /// the times of the imports. Stores that were made from the same sources with the same options have the same digest,
-/// whatever the machine, the compiler, the number of threads, and the order of the sources in one import. Reads every
-/// byte. Throws CorruptStore, FileError, Cancelled.
+/// whatever the machine, the compiler, the number of threads, and the order of imports, as long as the first one makes
+/// the same choices (CRS, grid, levels). Reads every byte. Throws CorruptStore, FileError, Cancelled.
 std::string content_digest(const Store& store, Progress& progress);
 
 }  // namespace itin

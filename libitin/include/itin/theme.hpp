@@ -91,7 +91,7 @@ struct ThemeInfo {
   std::uint32_t footprint_blocks = 0;
   /// The number of blocks that keep ids, names and attributes of the theme's features; 0 where no import kept any.
   std::uint32_t feature_blocks = 0;
-  std::vector<AttributeField> fields = {};  ///< the features' attributes, in the order in which imports brought them
+  std::vector<AttributeField> fields = {};  ///< the features' attributes, in the order in which sources bring them
   bool segments_have_features = false;      ///< each of the theme's lines knows which feature it belongs to
   /// How far within their outlines the walls of the theme's features reach their full height, metres, where an import
   /// said so; elsewhere 0.05 or two grid steps.

@@ -124,6 +124,7 @@ class ThemeRaiser {
   struct Group {
     Numbers numbers;
     GridBox box;
+    std::uint64_t points = 0;  ///< of the ground, in the leaves about the box
   };
   using Groups = std::vector<Group>;
 
@@ -150,6 +151,7 @@ class ThemeRaiser {
       if (first.empty()) continue;
       Group group{std::move(numbers), {}};
       for (const std::uint32_t i : group.numbers) group.box.extend(boxes[i]);
+      group.points = points_in(group.box);
       pieces[{static_cast<std::int64_t>(std::floor(first.xmin / side)),
               static_cast<std::int64_t>(std::floor(first.ymin / side))}]
           .push_back(std::move(group));
@@ -157,13 +159,15 @@ class ThemeRaiser {
     return pieces;
   }
 
-  /// Builds the groups, split in halves as long as there is much ground about several of them.
+  /// Builds the groups, split in halves as long as there is much ground about several of them, or most of it is between
+  /// them.
   void build(Groups groups, const Progress& progress) {
     progress.throw_if_cancelled();
     GridBox box;
-    for (const Group& group : groups) box.extend(group.box);
+    std::uint64_t under = 0;
+    for (const Group& group : groups) box.extend(group.box), under += group.points;
     const std::uint64_t points = points_in(box);
-    if (groups.size() == 1 || points <= kMostPoints) {
+    if (groups.size() == 1 || points <= std::min(kMostPoints, 2 * under)) {
       require_room(groups, points);
       return build(groups, box, progress);
     }

@@ -17,10 +17,13 @@
 #include "base/stoppable.hpp"
 #include "import/footprints/footprint_file.hpp"
 #include "import/raised_warnings.hpp"
+#include "import/removed_sources.hpp"
 #include "import/source/source_context.hpp"
+#include "import/source/source_options.hpp"
 #include "import/source/terrain_source.hpp"
 #include "import/store_pass.hpp"
 #include "import/stored_sources.hpp"
+#include "pyramid/kept_ground.hpp"
 #include "store/store_writer.hpp"
 
 namespace itin {
@@ -87,7 +90,11 @@ void report_counts(const SetAsideCounts& before, const SetAsideCounts& now, Impo
 
 Additions plan_additions(const ImportOptions& options, const Store* store, Progress& progress) {
   Additions additions;
-  if (builds_features(options)) {
+  additions.removed = removed_sources(options.remove, store);
+  if (options.sources.empty()) {
+    require_useful_options(options, {});
+    additions.plan = plan_nothing(store->metadata());
+  } else if (builds_features(options)) {
     additions.footprints = read_footprint_files(options, *store, progress);
     additions.plan = plan_nothing(store->metadata());
     for (FootprintFile& file : additions.footprints) {
@@ -118,13 +125,23 @@ bool has_raised(const Store* store) {
   return ThemeChoice::all().includes_raised(store->metadata().themes);
 }
 
+/// Says why the ground of a store that was there is made again; empty where it stays.
+std::string why_made_again(const Store& store, const Additions& additions) {
+  if (!additions.plan.sources.empty()) return "terrain is added";
+  if (!additions.plan.lines.empty()) return "lines on the ground are added";
+  return may_keep_ground(store.metadata()) ? "" : "lines lie on it";
+}
+
 /// Writes the store in passes. Raised features need their ground finished first, and give vertices to lines of the
 /// ground where they cross them.
 void write_in_passes(Target target, const Store* existing, Additions additions, const ImportOptions& options,
                      ImportReport& report, CallProgress& call) {
-  const bool raises = !additions.footprints.empty() || has_raised(existing);
+  if (existing != nullptr) report.ground_made_again = why_made_again(*existing, additions);
+  const bool keeps = existing != nullptr && report.ground_made_again.empty();
+  const bool raises = !keeps && (!additions.footprints.empty() || has_raised(existing));
   const Store* base = existing;
-  const Store* ground = has_uncut_ground(base) && !additions.footprints.empty() ? base : nullptr;
+  const Store* ground = keeps || (has_uncut_ground(base) && !additions.footprints.empty()) ? base : nullptr;
+  std::vector<std::uint16_t> added;
   std::deque<Unfinished> interim;  // stores for the time of this import only
   std::optional<Store> before;
   RaisedFeaturesReport raised;
@@ -132,20 +149,24 @@ void write_in_passes(Target target, const Store* existing, Additions additions, 
     raisings += ground != nullptr ? 1 : 0;
     interim.emplace_back(fmt::format("{}.ground{}", target.path, interim.size()));
     target.interim = interim.back().path(), target.last = raisings == kMostRaised;
-    if (StorePass(target, {base, ground, additions}, options, report).run(raised, call.step(raises ? 0.5 : 1))) break;
+    StorePass pass(target, {base, ground, keeps, additions}, options, report);
+    const bool done = pass.run(raised, call.step(raises ? 0.5 : 1));
+    if (base == existing) added = pass.added();
+    if (done) break;
     base = ground = &before.emplace(interim.back().path());
     additions = Additions{plan_nothing(base->metadata()), {}};
   }
   report.features += raised.features;
   report.refused += raised.refused;
   const std::vector<std::string> warnings =
-      raised_warnings(raised, existing != nullptr ? &existing->metadata() : nullptr, imported_sources(existing).size());
+      raised_warnings(raised, existing != nullptr ? &existing->metadata() : nullptr, added);
   report.warnings.insert(report.warnings.end(), warnings.begin(), warnings.end());
 }
 
 ImportReport import_sources(const std::string& store_path, const ImportOptions& options, Progress& progress) {
   const auto start = std::chrono::steady_clock::now();
-  if (options.sources.empty()) throw InputError("no source given: name at least one file to import", "sources");
+  if (options.sources.empty() && options.remove.empty())
+    throw InputError("no source given: name at least one file to import", "sources");
   const Stoppable stoppable(progress);
   static_cast<void>(utc_now());  // a wrong SOURCE_DATE_EPOCH is noticed before hours of work
   // The file comes first, for another import could change the store once it has been opened. A place that cannot be

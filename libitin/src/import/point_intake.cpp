@@ -39,6 +39,11 @@ void PointIntake::add(std::span<const RawPoint> points) {
     if (replacing_.contains(p.source)) of_replacing_->add(p);
 }
 
+void PointIntake::renumber(const std::vector<std::uint16_t>& numbers) {
+  all_.renumber(numbers);
+  if (of_replacing_) of_replacing_->renumber(numbers);
+}
+
 std::optional<ReplacingGround> PointIntake::replacing_ground(const std::vector<SourceInfo>& sources, const Grid& grid,
                                                              Progress& progress) {
   if (!of_replacing_) return std::nullopt;

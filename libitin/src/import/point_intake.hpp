@@ -24,6 +24,8 @@ class PointIntake {
 
   void add(const RawPoint& point) { add({&point, 1}); }
   void add(std::span<const RawPoint> points);
+  /// Gives sources other numbers, as PointSorter does, once all points have been added.
+  void renumber(const std::vector<std::uint16_t>& numbers);
   /// Finds the ground that lines make room for; nothing where there is none. To be called once, after all points of the
   /// ground.
   std::optional<ReplacingGround> replacing_ground(const std::vector<SourceInfo>& sources, const Grid& grid,

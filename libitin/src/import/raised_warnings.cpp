@@ -21,14 +21,14 @@ std::uint64_t lost(const RaisedThemeReport& theme, const StoreMetadata* before) 
 }  // namespace
 
 std::vector<std::string> raised_warnings(const RaisedFeaturesReport& raised, const StoreMetadata* before,
-                                         std::size_t first_new) {
+                                         const std::vector<std::uint16_t>& added) {
   std::vector<std::string> warnings;
   for (const RaisedThemeReport& theme : raised.themes) {
     const std::uint64_t fewer = lost(theme, before);
     Findings findings(fmt::format("theme '{}'", theme.name));
     if (fewer > 0) findings.add(fmt::format("{} of its features stood before, and do not on this ground", fewer));
     for (const RaisedReport& report : theme.reports)
-      if (fewer > 0 || report.source >= first_new) findings.add(report.text);
+      if (fewer > 0 || std::find(added.begin(), added.end(), report.source) != added.end()) findings.add(report.text);
     for (std::string& line : findings.lines()) warnings.push_back(std::move(line));
   }
   return warnings;

@@ -18,6 +18,7 @@
 #include "import/source/source_order.hpp"
 #include "import/source/true_scale.hpp"
 #include "import/vectors/line_layer.hpp"
+#include "pyramid/kept_ground.hpp"
 #include "store/store_file.hpp"
 #include "store/store_format.hpp"
 
@@ -88,6 +89,7 @@ StorePass::StorePass(const Target& target, const PassSources& of, const ImportOp
     : target_(target),
       base_(of.base),
       ground_(of.ground),
+      keeps_ground_(of.keeps_ground),
       additions_(of.additions),
       options_(options),
       report_(report),
@@ -102,29 +104,46 @@ StorePass::StorePass(const Target& target, const PassSources& of, const ImportOp
 bool StorePass::run(RaisedFeaturesReport& raised, Progress& progress) {
   CallProgress call(progress);
   collect(call.step(kCollecting));
+  number_sources();
   if (ground_ != nullptr) collection_.raise(*ground_, raised, call.step(kRaising));
+  if (!keeps_ground_) return make_ground(call);
+  put_on_ground(call);
+  return true;
+}
+
+/// Makes the ground of all points, with all lines and features. Returns what run() does.
+bool StorePass::make_ground(CallProgress& call) {
   const std::optional<ReplacingGround> replacing =
       points_.replacing_ground(sources_, additions_.plan.grid, call.step(replacing_.empty() ? 0 : kReplacing));
   SortedPoints points = sorted_points(call.step(kSorting));
   const ThemeLines lines =
-      collection_.finish(sources_, ground_, replacing ? &*replacing : nullptr, points, call.step(kLeading));
+      collection_.finish(sources_, ground_, replacing ? &*replacing : nullptr, &points, call.step(kLeading));
   add_line_vertices(lines, points);
   const bool done =
       target_.last || !collection_.is_raised() || (ground_ != nullptr && !collection_.changes_terrain(lines));
   std::optional<StoreWriter> interim;
   if (!done) interim.emplace(target_.interim, additions_.plan.crs_wkt, additions_.plan.grid, target_.tolerances);
   StoreWriter& writer = done ? target_.writer : *interim;
-  const PyramidReport pyramid =
-      build(lines, points, done ? target_.tolerances : std::vector<double>{0.0}, writer, call.step(1));
+  finish(build(lines, points, done ? target_.tolerances : std::vector<double>{0.0}, writer, call.step(1)), lines,
+         writer);
+  return done;
+}
+
+/// Puts the features on the ground that is there.
+void StorePass::put_on_ground(CallProgress& call) {
+  const ThemeLines lines = collection_.finish(sources_, ground_, nullptr, nullptr, call.step(kLeading));
+  finish(keep_ground(*ground_, sources_, lines, target_.writer, call.step(1)), lines, target_.writer);
+}
+
+void StorePass::finish(const PyramidReport& pyramid, const ThemeLines& lines, StoreWriter& writer) {
   set_aside(pyramid, lines, writer);
   count(pyramid, lines);
   commit(pyramid, lines, writer);
-  return done;
 }
 
 /// The sources whose ground lines make room for, if any lines do. Lines that lie on a ground have done so already.
 Sources StorePass::replacing_lines() const {
-  const auto& [plan, footprints] = additions_;
+  const ImportPlan& plan = additions_.plan;
   const bool make_room =
       std::any_of(sources_.begin(), sources_.end(), [](const SourceInfo& s) { return s.makes_room; }) ||
       std::any_of(plan.lines.begin(), plan.lines.end(), [](const auto& layer) { return layer->info().makes_room; });
@@ -148,22 +167,48 @@ void StorePass::require_numbers() const {
 void StorePass::collect(Progress& progress) {
   CallProgress call(progress);
   auto left = static_cast<double>(additions_.plan.sources.size() + additions_.plan.lines.size()) + 1;
-  if (base_ != nullptr) stored_ = add_stored(*base_, points_, collection_, call.step(1 / left));
+  if (base_ != nullptr) {
+    collection_.take_themes(base_->metadata(), additions_.removed);
+    if (!keeps_ground_) stored_ = add_stored_ground(*base_, points_, collection_, call.step(1 / left));
+    report_.removed += collection_.take_features(*base_, additions_.removed);
+  }
+  const auto add_info = [&](const SourceInfo& info) -> SourceInfo& {
+    added_.push_back(next_number());
+    return sources_.emplace_back(recorded(info, options_));
+  };
   for (const auto& source : additions_.plan.sources) {
     add_source(*source, call.step(1 / --left));
-    sources_.push_back(recorded(source->info(), options_));
-    sources_.back().replaces = replaces(*source, options_);
+    add_info(source->info()).replaces = replaces(*source, options_);
   }
   for (const auto& layer : additions_.plan.lines) {
     add_lines(*layer, call.step(1 / --left));
-    sources_.push_back(recorded(layer->info(), options_));
+    add_info(layer->info()).fields = layer->fields().fields();
   }
   for (FootprintFile& file : additions_.footprints) {
     add_footprints(file);
-    sources_.push_back(recorded(file.info, options_));
+    SourceInfo& info = add_info(file.info);
+    info.fields = file.footprints.fields, info.wall_offset = options_.wall_offset;
   }
+  if (!additions_.empty()) require_points(report_, options_, base_ != nullptr);
+}
+
+/// Gives all sources, and the features that they bring, the numbers that they have in the new store.
+void StorePass::number_sources() {
+  std::vector<bool> left_out(sources_.size(), false);
+  for (const std::uint16_t s : additions_.removed) left_out[s] = true;
+  const std::vector<std::uint16_t> numbers = numbers_of(sources_, left_out);
+  std::vector<SourceInfo> numbered(sources_.size() - additions_.removed.size());
+  for (std::size_t s = 0; s < sources_.size(); ++s)
+    if (!left_out[s]) numbered[numbers[s]] = std::move(sources_[s]);
+  sources_ = std::move(numbered);
+  for (std::uint16_t& s : added_) s = numbers[s];
+  points_.renumber(numbers);
+  collection_.renumber(numbers, sources_);
   if (repair_) sources_.push_back(inferred_source());
-  if (!additions_.empty()) require_points(report_, options_, stored_.count > 0);
+}
+
+bool StorePass::is_added(std::size_t source) const {
+  return std::find(added_.begin(), added_.end(), source) != added_.end();
 }
 
 void StorePass::add_source(TerrainSource& source, Progress& progress) {
@@ -187,12 +232,14 @@ void StorePass::add_lines(LineLayer& layer, Progress& progress) {
   const std::vector<std::size_t> places =
       places_among(collection_.fields(theme), layer.fields().fields(), layer.path());
   std::uint32_t feature = kNoFeature;
-  const LineLayer::Sink sink{
-      [&](std::span<const GridPoint> line) {
-        collection_.add(theme, next_number(), feature, line);
-        collection_.require_room(layer.path());
-      },
-      [&](FeatureRecord record) { feature = collection_.add_feature(theme, arranged(std::move(record), places)); }};
+  const LineLayer::Sink sink{[&](std::span<const GridPoint> line) {
+                               collection_.add(theme, next_number(), feature, line);
+                               collection_.require_room(layer.path());
+                             },
+                             [&](FeatureRecord record) {
+                               feature =
+                                   collection_.add_feature(theme, next_number(), arranged(std::move(record), places));
+                             }};
   const ReadCounts counts =
       layer.read({additions_.plan.grid, additions_.plan.crs_wkt, &additions_.plan.scale->meter()}, sink, progress);
   require_true_scale(additions_.plan, layer.path(), counts.bounds);
@@ -264,7 +311,7 @@ void StorePass::set_aside(const PyramidReport& pyramid, const ThemeLines& lines,
 
 /// Whether the import adds terrain that replaces, or lines that make room.
 bool StorePass::changes_made_room() const {
-  const auto& [plan, footprints] = additions_;
+  const ImportPlan& plan = additions_.plan;
   return std::any_of(plan.sources.begin(), plan.sources.end(), [&](const auto& s) { return replaces(*s, options_); }) ||
          std::any_of(plan.lines.begin(), plan.lines.end(), [](const auto& layer) { return layer->info().makes_room; });
 }
@@ -273,8 +320,8 @@ bool StorePass::changes_made_room() const {
 void StorePass::count_made_room() {
   const std::vector<std::uint64_t>& made_room = collection_.made_room();
   report_.made_room = std::accumulate(made_room.begin(), made_room.end(), std::uint64_t{0});
-  std::size_t source = imported_sources(base_).size() + additions_.plan.sources.size();
-  for (const auto& layer : additions_.plan.lines) {
+  for (std::size_t i = 0; i < additions_.plan.lines.size(); ++i) {
+    const std::uint16_t source = added_[additions_.plan.sources.size() + i];
     const std::vector<ImportedPiece>& imported = collection_.imported();
     const auto pieces = std::count_if(imported.begin(), imported.end(),
                                       [&](const ImportedPiece& p) { return p.segment.source == source; });
@@ -282,8 +329,7 @@ void StorePass::count_made_room() {
       report_.warnings.push_back(
           fmt::format("{}: {} of {} pieces of lines make room, wholly or in part, for ground that was imported with "
                       "`replace`; lines imported with `stay` do not",
-                      layer->path(), made_room[source], pieces));
-    ++source;
+                      additions_.plan.lines[i]->path(), made_room[source], pieces));
   }
 }
 
@@ -299,7 +345,7 @@ void StorePass::count(const PyramidReport& pyramid, const ThemeLines& lines) {
     report_.vertices += sources_[s].vertices;
     if (!is_sea(sources_[s])) continue;
     report_.sea += sources_[s].vertices;
-    if (sources_[s].vertices == 0 && s >= imported_sources(base_).size())
+    if (sources_[s].vertices == 0 && is_added(s))
       report_.warnings.push_back(fmt::format("`sea_level` filled nothing: there is ground all over {}",
                                              options_.sea_area.empty()
                                                  ? "the box about the sources; give `sea_area` for "

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include <itin/call_progress.hpp>
 #include <itin/import.hpp>
 #include <itin/store.hpp>
 
@@ -23,10 +24,11 @@
 
 namespace itin {
 
-/// The sources that one import adds to a store.
+/// What one import adds to a store, and what it takes out.
 struct Additions {
   ImportPlan plan;
   std::vector<FootprintFile> footprints;
+  Sources removed = {};  ///< sources of features that stand, by their numbers in the store before
 
   /// Whether nothing is added, as in every pass after the first.
   bool empty() const { return plan.sources.empty() && plan.lines.empty() && footprints.empty(); }
@@ -45,6 +47,7 @@ struct Target {
 struct PassSources {
   const Store* base;    ///< the store whose contents the new one takes over
   const Store* ground;  ///< features are raised on it; null: lines are laid as they were imported, footprints only kept
+  bool keeps_ground;    ///< whether the new store has this ground byte for byte (pyramid/kept_ground.hpp)
   Additions& additions;
 };
 
@@ -59,18 +62,26 @@ class StorePass {
   /// and the next pass goes on from it.
   bool run(RaisedFeaturesReport& raised, Progress& progress);
 
+  /// Returns the numbers of the sources that were added, in the new store; known after run().
+  const std::vector<std::uint16_t>& added() const { return added_; }
+
  private:
   Sources replacing_lines() const;
   void require_numbers() const;
   void collect(Progress& progress);
+  void number_sources();
+  bool is_added(std::size_t source) const;
   void add_source(TerrainSource& source, Progress& progress);
   void add_lines(LineLayer& layer, Progress& progress);
   void add_footprints(FootprintFile& file);
   std::uint16_t next_number() const { return static_cast<std::uint16_t>(sources_.size()); }
   SortedPoints sorted_points(Progress& progress);
   void add_line_vertices(const ThemeLines& lines, SortedPoints& points) const;
+  bool make_ground(CallProgress& call);
+  void put_on_ground(CallProgress& call);
   PyramidReport build(const ThemeLines& lines, SortedPoints& points, const std::vector<double>& tolerances,
                       StoreWriter& writer, Progress& progress);
+  void finish(const PyramidReport& pyramid, const ThemeLines& lines, StoreWriter& writer);
   void set_aside(const PyramidReport& pyramid, const ThemeLines& lines, StoreWriter& writer) const;
   bool changes_made_room() const;
   void count_made_room();
@@ -80,12 +91,14 @@ class StorePass {
   const Target& target_;
   const Store* base_;
   const Store* ground_;
+  const bool keeps_ground_;
   Additions& additions_;
   const ImportOptions& options_;
   ImportReport& report_;
   const bool repair_;                ///< whether contours are repaired
   std::vector<SourceInfo> sources_;  ///< the new store's; the last one stands for inferred points where repair_ is true
-  const Sources replacing_;          ///< the sources whose ground lines make room for
+  std::vector<std::uint16_t> added_;  ///< the numbers of the sources that were added, in the order of the call
+  const Sources replacing_;  ///< the sources whose ground lines make room for, by the numbers that they come with
   PointIntake points_;
   LineCollection collection_;
   StoredPoints stored_;

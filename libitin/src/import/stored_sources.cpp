@@ -70,15 +70,13 @@ std::vector<SourceInfo> imported_sources(const Store* store) {
   return sources;
 }
 
-StoredPoints add_stored(const Store& store, PointIntake& intake, LineCollection& lines, Progress& progress) {
+StoredPoints add_stored_ground(const Store& store, PointIntake& intake, LineCollection& lines, Progress& progress) {
   const StoreRows& rows = file_of(store).rows();
   StoredPoints stored;
-  lines.take_themes(store.metadata());
   lines.take_segments(store);
   add_surface(store, intake, lines, stored, progress);
   add_set_aside(rows, intake, stored, progress);
   lines.take_set_aside(rows);
-  lines.take_features(store);
   std::sort(stored.inferred.begin(), stored.inferred.end(),
             [](const GridPoint& a, const GridPoint& b) { return code_of(a) < code_of(b); });
   return stored;

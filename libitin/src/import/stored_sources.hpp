@@ -28,7 +28,7 @@ struct StoredPoints {
 };
 
 /// Adds the points of the ground that a store has imported, even those that its surface leaves out, and takes its lines
-/// and footprints over. Throws CorruptStore, Cancelled.
-StoredPoints add_stored(const Store& store, PointIntake& intake, LineCollection& lines, Progress& progress);
+/// over. Comes after LineCollection::take_themes(). Throws CorruptStore, Cancelled.
+StoredPoints add_stored_ground(const Store& store, PointIntake& intake, LineCollection& lines, Progress& progress);
 
 }  // namespace itin

@@ -134,19 +134,29 @@ std::vector<PartClusters> clusters_of_lines(const ThemeLines& lines) {
   return clusters;
 }
 
-void mask_terrain(std::vector<PartMask>& parts, const WorkingIndex& index, const std::vector<CurveRange>& tiles,
+/// The ground's leaves under the masks of all parts, each once.
+std::vector<Leaf> leaves_under(const std::vector<PlacedPart>& parts, const PointIndex& ground) {
+  std::vector<Leaf> leaves;
+  for (const PlacedPart& part : parts)
+    for (const GridPolygon& mask : part.masks) ground.leaves({}, box_about(mask), leaves);
+  std::sort(leaves.begin(), leaves.end(), [](const Leaf& a, const Leaf& b) { return a.key < b.key; });
+  leaves.erase(std::unique(leaves.begin(), leaves.end(), [](const Leaf& a, const Leaf& b) { return a.key == b.key; }),
+               leaves.end());
+  return leaves;
+}
+
+void mask_terrain(std::vector<PartMask>& parts, const std::vector<Leaf>& leaves, const PointIndex& ground,
                   Progress& progress) {
-  std::vector<std::vector<Codes>> found(tiles.size(), std::vector<Codes>(parts.size()));
-  parallel_for(tiles.size(), [&](std::size_t t) {
+  std::vector<std::vector<Codes>> found(leaves.size(), std::vector<Codes>(parts.size()));
+  parallel_for(leaves.size(), [&](std::size_t n) {
     progress.throw_if_cancelled();
-    for (const RawPoint& p : index.read(tiles[t])) {
-      if (p.level == kDropped) continue;
+    const auto block = ground.block_once(leaves[n]);
+    for (const GridPoint& p : block->points)
       for (std::size_t i = 0; i < parts.size(); ++i)
-        if (parts[i].covers(p.code)) found[t][i].push_back(p.code);
-    }
+        if (parts[i].covers(code_of(p))) found[n][i].push_back(code_of(p));
   });
-  for (const auto& of_tile : found)
-    for (std::size_t i = 0; i < parts.size(); ++i) parts[i].add(of_tile[i]);
+  for (const auto& of_leaf : found)
+    for (std::size_t i = 0; i < parts.size(); ++i) parts[i].add(of_leaf[i]);
 }
 
 void mask_vertices(PartMask& part, const std::vector<GridPoint>& vertices) {
@@ -164,16 +174,15 @@ std::vector<GridPoint> points_of(const PlacedPart& part) {
 
 }  // namespace
 
-WrittenParts write_parts(const ThemeLines& lines, const WorkingIndex& index, const std::vector<CurveRange>& tiles,
-                         const std::vector<GridPoint>& draped, const std::vector<Segment>& segments,
-                         StoreWriter& writer, Progress& progress) {
+WrittenParts write_parts(const ThemeLines& lines, const PointIndex& ground, const std::vector<GridPoint>& draped,
+                         const std::vector<Segment>& segments, StoreWriter& writer, Progress& progress) {
   WrittenParts written;
   std::vector<Segment>& masked = written.masked;
   if (lines.parts.empty()) return written;
   std::vector<PartClusters> clusters = clusters_of_lines(lines);
   std::vector<PartMask> parts;
   for (std::size_t i = 0; i < lines.parts.size(); ++i) parts.emplace_back(lines.parts[i], std::move(clusters[i]));
-  mask_terrain(parts, index, tiles, progress);
+  mask_terrain(parts, leaves_under(lines.parts, ground), ground, progress);
   for (std::size_t i = 0; i < parts.size(); ++i) {
     mask_vertices(parts[i], draped);
     for (const PlacedPart& other : lines.parts)
@@ -184,10 +193,10 @@ WrittenParts write_parts(const ThemeLines& lines, const WorkingIndex& index, con
     for (const Segment& s : segments) {
       const bool lower = s.theme <= lines.themes() || parts[s.theme - lines.themes() - 1].rank() > parts[i].rank();
       if (s.theme == kCoverage || !lower) continue;
-      const bool ground = s.theme <= lines.themes() && lines.raised[s.theme - std::size_t{1}];
-      if (ground ? !parts[i].hides_end(s) : !parts[i].covers(s)) continue;
+      const bool keeps_ground = s.theme <= lines.themes() && lines.raised[s.theme - std::size_t{1}];
+      if (keeps_ground ? !parts[i].hides_end(s) : !parts[i].covers(s)) continue;
       masked.push_back({s.ax, s.ay, s.bx, s.by, number, format::kMaskedSegment, format::kMaskedSegment, s.theme});
-      parts[i].add_masked(masked.back(), ground);
+      parts[i].add_masked(masked.back(), keeps_ground);
     }
   }
   for (const PlacedBorder& placed : lines.borders) {

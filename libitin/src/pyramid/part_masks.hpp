@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "pyramid/theme_lines.hpp"
-#include "pyramid/working_index.hpp"
+#include "store/point_index.hpp"
 #include "store/store_writer.hpp"
 
 namespace itin {
@@ -17,9 +17,9 @@ struct WrittenParts {
 };
 
 /// Writes the vertices of all parts, with the positions where vertices of the terrain, of lines on the ground
-/// (`draped`) and of parts of greater rank make way for them. Returns the given segments that make way.
-WrittenParts write_parts(const ThemeLines& lines, const WorkingIndex& index, const std::vector<CurveRange>& tiles,
-                         const std::vector<GridPoint>& draped, const std::vector<Segment>& segments,
-                         StoreWriter& writer, Progress& progress);
+/// (`draped`) and of parts of greater rank make way for them. `ground` has the full surface's points and no others.
+/// Returns the given segments that make way.
+WrittenParts write_parts(const ThemeLines& lines, const PointIndex& ground, const std::vector<GridPoint>& draped,
+                         const std::vector<Segment>& segments, StoreWriter& writer, Progress& progress);
 
 }  // namespace itin

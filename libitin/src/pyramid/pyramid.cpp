@@ -16,7 +16,7 @@
 #include "pyramid/contour_repair.hpp"
 #include "pyramid/coverage.hpp"
 #include "pyramid/level_writer.hpp"
-#include "pyramid/part_masks.hpp"
+#include "pyramid/line_writer.hpp"
 #include "pyramid/post_hierarchy.hpp"
 #include "pyramid/proposal.hpp"
 #include "pyramid/replacement.hpp"
@@ -74,50 +74,6 @@ std::vector<RawPoint> raw_points(const std::vector<GridPoint>& points, std::size
   std::vector<RawPoint> result;
   for (const GridPoint& p : points) result.push_back({code_of(p), p.z, static_cast<std::uint16_t>(source), 0});
   return result;
-}
-
-/// Writes the vertices that each theme has besides those of the full surface, with the themes they belong to.
-/// `crossings`: the vertices at which lines that keep the ground cross other lines.
-void write_features(const PlacedLines& placed, const std::vector<ThemeVertex>& crossings, const ThemeLines& lines,
-                    const std::vector<GridPoint>& draped, StoreWriter& writer, PyramidReport& report) {
-  std::vector<std::pair<std::uint16_t, std::uint64_t>> ends;  // theme, code
-  for (const Segment& s : placed.features) {
-    ends.emplace_back(s.theme, code_of(s.a()));
-    ends.emplace_back(s.theme, code_of(s.b()));
-  }
-  for (const auto& [theme, code] : crossings) ends.emplace_back(theme + 1, code);
-  sort_unique(ends);
-  for (auto at = ends.begin(); at != ends.end();) {
-    const std::uint16_t theme = at->first;
-    std::vector<GridPoint> points;
-    std::vector<std::uint16_t> sources;
-    for (; at != ends.end() && at->first == theme; ++at) {
-      const auto point = find_by_code(draped, at->second);
-      if (point == draped.end()) continue;
-      const auto vertex = find_by_code(lines.lines.vertices, at->second);
-      points.push_back(*point);
-      sources.push_back(lines.sources[static_cast<std::size_t>(vertex - lines.lines.vertices.begin())]);
-      report.vertices_of_source[sources.back()] += 1;
-    }
-    writer.add_theme_vertices(theme, points, sources);
-  }
-}
-
-void count_lines(const PlacedLines& placed, std::size_t themes, PyramidReport& report) {
-  std::vector<std::vector<std::uint64_t>> ends(themes);
-  report.segments.assign(themes, 0);
-  report.left_out = placed.left_out;
-  for (const std::vector<Segment>* segments : {&placed.terrain, &placed.features, &placed.raised}) {
-    for (const Segment& s : *segments) {
-      report.segments[s.theme - std::size_t{1}] += 1;
-      ends[s.theme - std::size_t{1}].push_back(code_of(s.a()));
-      ends[s.theme - std::size_t{1}].push_back(code_of(s.b()));
-    }
-  }
-  for (std::vector<std::uint64_t>& codes : ends) {
-    std::sort(codes.begin(), codes.end());
-    report.line_vertices.push_back(static_cast<std::uint64_t>(std::unique(codes.begin(), codes.end()) - codes.begin()));
-  }
 }
 
 /// The source of a point in the store. A vertex that covers a point of the ground stands for it while levels are made,
@@ -348,18 +304,7 @@ class PyramidBuild {
 
   /// Step 8: writes features with their vertices, parts, and the segments of all lines.
   void write_lines() {
-    const std::vector<GridPoint> draped = write_draped();
-    count_lines(placed_, lines_.themes() + lines_.parts.size(), report_);
-    std::vector<Segment> segments = index_->all_segments();
-    for (const std::vector<Segment>* const more : {&placed_.features, &placed_.raised, &placed_.ground})
-      append(segments, *more);
-    const WrittenParts parts = write_parts(lines_, *index_, tiles_, draped, segments, writer_, progress_);
-    for (std::size_t p = 0; p < lines_.parts.size(); ++p) {
-      report_.line_vertices[lines_.themes() + p] = lines_.parts[p].vertices.size();
-      report_.vertices_of_source[lines_.parts[p].source] += lines_.parts[p].vertices.size();
-    }
-    append(segments, parts.masked);
-    writer_.add_segments(segments, segment_features(), parts.clusters);
+    LineWriter(lines_, placed_, *index_, writer_, report_).run(index_->all_segments(), segment_features(), progress_);
   }
 
   /// The features of all segments. The hierarchy has the segments of the terrain's lines; others are whole at all
@@ -371,18 +316,6 @@ class PyramidBuild {
                  [&](const SegmentFeature& f) { return !lines_.terrain[f.segment.theme - std::size_t{1}]; });
     std::sort(features.begin(), features.end());
     return features;
-  }
-
-  /// Writes the vertices of lines on the ground, and returns them.
-  std::vector<GridPoint> write_draped() {
-    const std::vector<ThemeVertex> crossings = crossings_of_ground(lines_);
-    if (placed_.features.empty() && crossings.empty()) return {};
-    std::vector<std::uint64_t> ends = placed_.ends;
-    for (const ThemeVertex& v : crossings) ends.push_back(v.code);
-    sort_unique(ends);
-    std::vector<GridPoint> draped = drape(ends, *index_, tiles_, progress_);
-    write_features(placed_, crossings, lines_, draped, writer_, report_);
-    return draped;
   }
 
   SortedPoints& points_;

@@ -259,6 +259,8 @@ class PointSorter::Impl {
     }
   }
 
+  void renumber(std::vector<std::uint16_t> numbers) { numbers_ = std::move(numbers); }
+
   std::unique_ptr<SortedPoints::Impl> finish(std::span<const SourceRank> sources, Progress& progress,
                                              std::uint64_t& duplicates) {
     write_chunks();
@@ -342,7 +344,8 @@ class PointSorter::Impl {
       if (!sources[best->source].ground && ground) best->source = ground->source;
       sorted.append(*best, writer);
     };
-    merge(file_, runs_, buffer, [&](const RawPoint& point) {
+    merge(file_, runs_, buffer, [&](RawPoint point) {
+      if (!numbers_.empty()) point.source = numbers_[point.source];
       if (visited++ % kProgressStep == 0) {
         progress.throw_if_cancelled();
         progress.report("sorting", static_cast<double>(visited) / static_cast<double>(count));
@@ -369,6 +372,7 @@ class PointSorter::Impl {
   std::vector<Run> runs_;
   std::vector<std::vector<RawPoint>> chunks_;  // all but the last one full
   std::vector<std::vector<RawPoint>> spare_;   // empty, with memory
+  std::vector<std::uint16_t> numbers_;         // of sources, by the numbers that they were added with; or empty
 };
 
 PointSorter::PointSorter(std::string directory, std::uint64_t memory_bytes)
@@ -380,6 +384,10 @@ void PointSorter::add(const RawPoint& point) {
 }
 void PointSorter::add(std::span<const RawPoint> points) {
   impl_->add(points);
+}
+
+void PointSorter::renumber(std::vector<std::uint16_t> numbers) {
+  impl_->renumber(std::move(numbers));
 }
 
 SortedPoints PointSorter::finish(std::span<const SourceRank> sources, Progress& progress, std::uint64_t* duplicates) {

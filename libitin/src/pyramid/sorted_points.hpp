@@ -79,6 +79,8 @@ class PointSorter {
   /// Adds points; not thread-safe.
   void add(const RawPoint& point);
   void add(std::span<const RawPoint> points);
+  /// Gives sources other numbers: source s becomes `numbers[s]` in what finish() returns.
+  void renumber(std::vector<std::uint16_t> numbers);
   /// Sorts the points, and keeps one at each position. A point of a line goes first, then one whose source has the
   /// finest spacing. Among equal spacings a source that replaces others goes first, then the highest point, and then
   /// the point whose source comes first. So the rule is one on the points alone.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <map>
+#include <numeric>
 
 #include <itin/box_of.hpp>
 #include <itin/detail.hpp>
@@ -11,6 +12,7 @@
 #include <itin/sort_unique.hpp>
 
 #include "features/hot_pixel.hpp"
+#include "geometry/cell_about.hpp"
 #include "pyramid/grounded.hpp"
 #include "pyramid/points_in_triangles.hpp"
 #include "store/edge_quadtree.hpp"
@@ -32,17 +34,15 @@ std::span<const std::uint64_t> in_cell(const Codes& codes, const Cell& cell) {
   return {first, std::lower_bound(first, codes.end(), cell.end())};
 }
 
-/// Puts runs of codes, one per tile, together again in ascending order.
-template <class T, class OfTile>
-std::vector<T> by_tile(const Codes& codes, const std::vector<CurveRange>& tiles, const char* stage, Progress& progress,
-                       const OfTile& of_tile) {
-  std::vector<std::vector<T>> found(tiles.size());
+/// Puts together what `of_run` returns for the numbers below `runs`, in order.
+template <class T, class OfRun>
+std::vector<T> joined_runs(std::size_t runs, const char* stage, Progress& progress, const OfRun& of_run) {
+  std::vector<std::vector<T>> found(runs);
   std::atomic<std::size_t> done = 0;
-  parallel_for(tiles.size(), [&](std::size_t i) {
+  parallel_for(runs, [&](std::size_t i) {
     progress.throw_if_cancelled();
-    const auto own = in_cell(codes, tiles[i].cell);
-    if (!own.empty()) found[i] = of_tile(own);
-    progress.report(stage, static_cast<double>(++done) / static_cast<double>(tiles.size()));
+    found[i] = of_run(i);
+    progress.report(stage, static_cast<double>(++done) / static_cast<double>(runs));
   });
   std::vector<T> all;
   for (const auto& part : found) all.insert(all.end(), part.begin(), part.end());
@@ -206,9 +206,11 @@ PlacedLines place_lines(const ThemeLines& lines, const WorkingIndex& index, cons
   }
   sort_unique(wanted);
   const SourceIndex ground_index(index, ground);
-  const Codes on_ground = by_tile<std::uint64_t>(
-      wanted, tiles, "laying lines on the ground", progress,
-      [&](std::span<const std::uint64_t> own) { return grounded(own, ground_index, gap_bases); });
+  const Codes on_ground =
+      joined_runs<std::uint64_t>(tiles.size(), "laying lines on the ground", progress, [&](std::size_t i) {
+        const auto own = in_cell(wanted, tiles[i].cell);
+        return own.empty() ? Codes() : grounded(own, ground_index, gap_bases);
+      });
   const auto lies = [&](std::uint32_t v) { return std::binary_search(on_ground.begin(), on_ground.end(), codes[v]); };
 
   std::vector<Segment> candidates;
@@ -245,25 +247,54 @@ PlacedLines place_lines(const ThemeLines& lines, const WorkingIndex& index, cons
   return placed;
 }
 
-std::vector<GridPoint> drape(const std::vector<std::uint64_t>& codes, const WorkingIndex& index,
-                             const std::vector<CurveRange>& tiles, Progress& progress) {
-  return by_tile<GridPoint>(codes, tiles, "draping lines", progress, [&](std::span<const std::uint64_t> own) {
-    const RegionMesh region = triangulate_region(index, everything(), box_of(own, position_of));
-    std::map<std::uint64_t, GridPoint> draped;
-    const auto corners = [&](std::size_t t) { return region.corners(static_cast<std::uint32_t>(t)); };
-    for_each_inside(region.mesh.triangles.size(), corners, own, [&](std::size_t t, Position p) {
-      const auto& [a, b, c] = region.mesh.triangles[t];
-      const GridPoint &pa = region.vertices[a].point, &pb = region.vertices[b].point, &pc = region.vertices[c].point;
-      const std::int64_t wa = doubled_area(p, pb, pc), wb = doubled_area(pa, p, pc), wc = doubled_area(pa, pb, p);
-      const std::int64_t z =
-          rounded_quotient(Int128{wa} * pa.z + Int128{wb} * pb.z + Int128{wc} * pc.z, Int128{wa} + wb + wc);
-      draped.try_emplace(code_of(p), GridPoint{p.x, p.y, static_cast<std::int32_t>(z)});
-    });
-    for (const SelectedVertex& v : region.vertices) draped.erase(code_of(v.point));
-    std::vector<GridPoint> result;
-    for (const auto& [code, point] : draped) result.push_back(point);
-    return result;
+namespace {
+
+/// The most points of ground that are triangulated at once to drape positions on it, unless these are one.
+constexpr std::uint64_t kMostDraped = 1 << 16;
+
+/// Divides ascending codes into runs, about each of which the ground has few points.
+void divide(std::span<const std::uint64_t> codes, const PointIndex& ground,
+            std::vector<std::span<const std::uint64_t>>& runs) {
+  const GridBox box = box_of(codes, position_of);
+  std::vector<Leaf> leaves;
+  if (codes.size() > 1) ground.leaves({}, box, leaves);
+  const std::uint64_t points = std::accumulate(leaves.begin(), leaves.end(), std::uint64_t{0},
+                                               [](std::uint64_t sum, const Leaf& l) { return sum + l.points; });
+  if (points <= kMostDraped) return runs.push_back(codes);
+  const Cell cell = cell_about(box);
+  for (int i = 0; i < 4; ++i) {
+    const auto end = std::lower_bound(codes.begin(), codes.end(), cell.child(i).end());
+    const auto own = codes.first(static_cast<std::size_t>(end - codes.begin()));
+    if (!own.empty()) divide(own, ground, runs);
+    codes = codes.subspan(own.size());
+  }
+}
+
+std::vector<GridPoint> draped_run(std::span<const std::uint64_t> codes, const PointIndex& ground) {
+  const RegionMesh region = triangulate_region(ground, everything(), box_of(codes, position_of));
+  std::map<std::uint64_t, GridPoint> draped;
+  const auto corners = [&](std::size_t t) { return region.corners(static_cast<std::uint32_t>(t)); };
+  for_each_inside(region.mesh.triangles.size(), corners, codes, [&](std::size_t t, Position p) {
+    const auto& [a, b, c] = region.mesh.triangles[t];
+    const GridPoint &pa = region.vertices[a].point, &pb = region.vertices[b].point, &pc = region.vertices[c].point;
+    const std::int64_t wa = doubled_area(p, pb, pc), wb = doubled_area(pa, p, pc), wc = doubled_area(pa, pb, p);
+    const std::int64_t z =
+        rounded_quotient(Int128{wa} * pa.z + Int128{wb} * pb.z + Int128{wc} * pc.z, Int128{wa} + wb + wc);
+    draped.try_emplace(code_of(p), GridPoint{p.x, p.y, static_cast<std::int32_t>(z)});
   });
+  for (const SelectedVertex& v : region.vertices) draped.erase(code_of(v.point));
+  std::vector<GridPoint> result;
+  for (const auto& [code, point] : draped) result.push_back(point);
+  return result;
+}
+
+}  // namespace
+
+std::vector<GridPoint> drape(const std::vector<std::uint64_t>& codes, const PointIndex& ground, Progress& progress) {
+  std::vector<std::span<const std::uint64_t>> runs;
+  if (!codes.empty()) divide(codes, ground, runs);
+  return joined_runs<GridPoint>(runs.size(), "draping lines", progress,
+                                [&](std::size_t i) { return draped_run(runs[i], ground); });
 }
 
 }  // namespace itin

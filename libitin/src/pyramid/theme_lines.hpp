@@ -92,8 +92,7 @@ PlacedLines place_lines(const ThemeLines& lines, const WorkingIndex& index, cons
                         const std::vector<Segment>& outline, Progress& progress);
 
 /// The full surface's heights at the positions (ascending Morton codes) on the ground where it has no vertex; positions
-/// where it has one are left out.
-std::vector<GridPoint> drape(const std::vector<std::uint64_t>& codes, const WorkingIndex& index,
-                             const std::vector<CurveRange>& tiles, Progress& progress);
+/// where it has one are left out. `ground` has the full surface's points and no others.
+std::vector<GridPoint> drape(const std::vector<std::uint64_t>& codes, const PointIndex& ground, Progress& progress);
 
 }  // namespace itin

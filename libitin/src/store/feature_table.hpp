@@ -40,7 +40,7 @@ class FeatureTable {
  public:
   /// Takes the theme's number, from 1. The store must outlive the table.
   FeatureTable(const Store& store, std::uint16_t theme) : store_(store), theme_(theme) {}
-  /// Returns the record of the feature with this number, from 0, in the order of import; null where the store has no
+  /// Returns the record of the feature with this number, from 0; null where the store has no
   /// such record. Throws CorruptStore.
   const FeatureRecord* at(std::int64_t number);
 

@@ -17,13 +17,13 @@ struct StoredFootprint {
   std::uint16_t source = 0;
 };
 
-/// Returns the footprints of a theme, by its number, in the order of import. Throws CorruptStore.
+/// Returns the footprints of a theme, by its number, in the order of their numbers. Throws CorruptStore.
 std::vector<StoredFootprint> stored_footprints(const Store& store, std::uint16_t theme);
 /// Returns the footprints in one of the theme's footprint_blocks.
 std::vector<StoredFootprint> stored_footprints(const Store& store, std::uint16_t theme, std::uint32_t block);
 
-/// Calls visit(number, footprint) for each of a theme's footprints, in the order of import, one block in memory at a
-/// time.
+/// Calls visit(number, footprint) for each of a theme's footprints, in the order of their numbers, one block in memory
+/// at a time.
 template <class Visit>
 void for_each_footprint(const Store& store, std::uint16_t theme, const Visit& visit) {
   std::int64_t number = 0;

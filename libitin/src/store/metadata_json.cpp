@@ -44,6 +44,25 @@ GridScale scale_from_json(const json& j) {
   return {j.at("least").get<double>(), j.at("greatest").get<double>(), j.at("allowed_error").get<double>()};
 }
 
+ordered_json fields_to_json(const std::vector<AttributeField>& fields) {
+  ordered_json j = ordered_json::array();
+  for (const AttributeField& field : fields) j.push_back({{"name", field.name}, {"type", name_of(field.type)}});
+  return j;
+}
+
+AttributeField field_from_json(const json& j) {
+  const std::string type = j.at("type").get<std::string>();
+  for (const AttributeType t : {AttributeType::number, AttributeType::whole, AttributeType::text})
+    if (type == name_of(t)) return {j.at("name").get<std::string>(), t};
+  throw DecodeError("a field is of no type");
+}
+
+std::vector<AttributeField> fields_from_json(const json& j) {
+  std::vector<AttributeField> fields;
+  for (const json& field : j) fields.push_back(field_from_json(field));
+  return fields;
+}
+
 ordered_json source_to_json(const SourceInfo& source) {
   ordered_json j{{"path", source.path},         {"kind", source.kind},
                  {"theme", source.theme},       {"imported", source.imported},
@@ -52,6 +71,9 @@ ordered_json source_to_json(const SourceInfo& source) {
                  {"spacing_m", source.spacing}, {"replaces", source.replaces}};
   if (source.makes_room) j["makes_room"] = true;
   if (!source.note.empty()) j["note"] = source.note;
+  if (source.features > 0) j["features"] = source.features;
+  if (!source.fields.empty()) j["fields"] = fields_to_json(source.fields);
+  if (source.wall_offset) j["wall_offset_m"] = *source.wall_offset;
   return j;
 }
 
@@ -69,6 +91,9 @@ SourceInfo source_from_json(const json& j) {
   source.replaces = j.at("replaces").get<bool>();
   source.makes_room = j.value("makes_room", false);
   source.note = j.value("note", "");
+  source.features = j.value("features", std::uint64_t{0});
+  source.fields = fields_from_json(j.value("fields", json::array()));
+  if (j.contains("wall_offset_m")) source.wall_offset = j.at("wall_offset_m").get<double>();
   return source;
 }
 
@@ -80,17 +105,9 @@ ordered_json theme_to_json(const ThemeInfo& theme) {
   if (theme.feature_blocks > 0) j["feature_blocks"] = theme.feature_blocks;
   if (theme.segments_have_features) j["segments_have_features"] = true;
   if (theme.wall_offset) j["wall_offset_m"] = *theme.wall_offset;
-  for (const AttributeField& field : theme.fields)
-    j["fields"].push_back({{"name", field.name}, {"type", name_of(field.type)}});
+  if (!theme.fields.empty()) j["fields"] = fields_to_json(theme.fields);
   for (const FeatureRun& run : theme.left_out) j["left_out"].push_back({run.first, run.last});
   return j;
-}
-
-AttributeField field_from_json(const json& j) {
-  const std::string type = j.at("type").get<std::string>();
-  for (const AttributeType t : {AttributeType::number, AttributeType::whole, AttributeType::text})
-    if (type == name_of(t)) return {j.at("name").get<std::string>(), t};
-  throw DecodeError("a field is of no type");
 }
 
 /// Reads the features that do not stand, which ascend.
@@ -116,7 +133,7 @@ ThemeInfo theme_from_json(const json& j) {
                     j.value("feature_blocks", std::uint32_t{0})};
     theme.segments_have_features = j.value("segments_have_features", false);
     if (j.contains("wall_offset_m")) theme.wall_offset = j.at("wall_offset_m").get<double>();
-    for (const json& field : j.value("fields", json::array())) theme.fields.push_back(field_from_json(field));
+    theme.fields = fields_from_json(j.value("fields", json::array()));
     theme.left_out = left_out_from_json(j.value("left_out", json::array()));
     return theme;
   } catch (const InputError& e) {

@@ -14,7 +14,7 @@ inline constexpr std::uint32_t kNoFeature = 0xffffffff;
 
 struct SegmentFeature {
   Segment segment;
-  std::uint32_t feature = 0;  ///< the feature's number in its theme, from 0, in the order of import
+  std::uint32_t feature = 0;  ///< the feature's number in its theme, from 0, in the order of its sources
   friend auto operator<=>(const SegmentFeature&, const SegmentFeature&) = default;
 };
 

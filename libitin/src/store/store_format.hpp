@@ -12,7 +12,7 @@ namespace itin::format {
 
 inline constexpr std::uint32_t kApplicationId = 0x4954494e;  // "ITIN"
 /// The only version that is written and read. No release wrote an earlier one.
-inline constexpr std::uint32_t kVersion = 10;
+inline constexpr std::uint32_t kVersion = 11;
 inline constexpr int kPageSize = 16384;
 
 inline constexpr const char* kSchema =

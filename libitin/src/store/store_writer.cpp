@@ -17,6 +17,7 @@
 #include "store/line_codec.hpp"
 #include "store/metadata_json.hpp"
 #include "store/seal.hpp"
+#include "store/store_file.hpp"
 
 namespace itin {
 
@@ -111,6 +112,27 @@ void StoreWriter::add_ground(const EncodedLeaf& encoded) {
     metadata_.levels[k].vertices += encoded.vertices_of_level[k];
   }
   add_points(encoded);
+}
+
+void StoreWriter::take_ground(const Store& store, std::span<const Segment> outline, Progress& progress) {
+  const StoreFile& file = file_of(store);
+  set_fine_levels(file.metadata().fine_levels);
+  metadata_.levels = file.metadata().levels;
+  // The outermost vertices of the ground lie on its outline.
+  for (const Segment& s : outline) metadata_.bounds.extend(extent_of(s));
+  for (const LevelInfo& level : metadata_.levels) metadata_.vertices += level.vertices;
+  std::uint64_t leaves = 0, taken = 0;
+  for (const auto& [tree, chunks] : file.chunks())
+    for (const ChunkEntry& chunk : chunks) leaves += tree < format::kMaxLevels ? chunk.leaves : 0;
+  for (int tree = format::kGroundTree; tree < format::kMaxLevels; ++tree) {
+    const bool has_blocks = tree == format::kGroundTree || tree >= metadata_.fine_levels;
+    file.for_each_leaf_of(tree, [&](const Leaf& leaf) {
+      progress.throw_if_cancelled();
+      progress.report("copying the ground", static_cast<double>(++taken) / static_cast<double>(leaves));
+      if (!has_blocks || leaf.points == 0) return append(leaf, {});
+      file.rows().read(BlobKind::Block, leaf.key, [&](StoreRows::Bytes block) { append(leaf, block); });
+    });
+  }
 }
 
 void StoreWriter::add_leaf(int level, const Cell& cell, std::span<const GridPoint> points,
@@ -218,6 +240,15 @@ void StoreWriter::set_aside(const Cell& cell, std::span<const GridPoint> points,
                             std::span<const std::uint16_t> sources) {
   insert(*insert_block_, BlobKind::Block, format::set_aside_key(0, set_aside_.point_blocks++),
          encode_set_aside(cell, points, sources));
+}
+
+void StoreWriter::take_points_set_aside(const Store& store) {
+  const StoreRows& rows = file_of(store).rows();
+  for (const std::uint32_t blocks = set_aside_list(rows).point_blocks; set_aside_.point_blocks < blocks;) {
+    const std::uint64_t key = format::set_aside_key(0, set_aside_.point_blocks++);
+    rows.read(BlobKind::Block, key,
+              [&](StoreRows::Bytes block) { insert(*insert_block_, BlobKind::Block, key, block); });
+  }
 }
 
 void StoreWriter::set_aside(std::uint16_t theme, const SetAsideLines& lines) {

@@ -24,6 +24,7 @@
 #include <string>
 #include <vector>
 
+#include <itin/progress.hpp>
 #include <itin/store.hpp>
 
 #include "store/clusters.hpp"
@@ -70,6 +71,9 @@ class StoreWriter {
   /// has its certificate); lo and hi are in grid units. Points of fine levels are counted only.
   void add_leaf(int level, const Cell& cell, std::span<const GridPoint> points, std::span<const std::uint16_t> sources,
                 std::int32_t lo, std::int32_t hi);
+  /// Takes over the ground of a store of the same grid and levels: all leaves of its ground and of its levels, byte for
+  /// byte. It stands for add_ground() and add_leaf(). `outline` is that of the ground. Throws CorruptStore.
+  void take_ground(const Store& store, std::span<const Segment> outline, Progress& progress);
   /// These add a leaf that is encoded already.
   void add_ground(const EncodedLeaf& leaf);
   void add_leaf(const EncodedLeaf& leaf);
@@ -90,6 +94,8 @@ class StoreWriter {
   void set_aside(const Cell& cell, std::span<const GridPoint> points, std::span<const std::uint16_t> sources);
   /// Sets aside lines of a theme that the surface does not have unchanged.
   void set_aside(std::uint16_t theme, const SetAsideLines& lines);
+  /// Takes over the points of the ground that a store has set aside; stands for set_aside() of points.
+  void take_points_set_aside(const Store& store);
   void count_set_aside(const SetAsideCounts& counts) { set_aside_.counts = counts; }
   /// Adds a theme's footprints. Returns the number of their blocks.
   std::uint32_t add_footprints(std::uint16_t theme, std::span<const StoredFootprint> footprints);

@@ -16,7 +16,7 @@ Document cause(const LosReport& report, std::uint16_t theme) {
   return cause_of(report, theme);
 }
 
-/// Adds the feature's name by its source, its number from 0 in the order of import, and its id; null where there is no
+/// Adds the feature's name by its source, its number in its theme, from 0, and its id; null where there is no
 /// feature.
 void add_feature(const LosReport& report, std::uint16_t theme, std::int64_t number, Document& document) {
   const auto known = report.features.find({theme, number});

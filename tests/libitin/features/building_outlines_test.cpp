@@ -51,7 +51,7 @@ class BuildingOutlines : public testing::Test {
     return boxes;
   }
 
-  /// Both in the order of import.
+  /// Both in the order of their numbers.
   static void expect_same(const std::vector<Box>& found, const std::vector<Box>& expected) {
     ASSERT_EQ(found.size(), expected.size());
     for (std::size_t i = 0; i < found.size(); ++i) {

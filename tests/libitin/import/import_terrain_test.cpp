@@ -33,7 +33,7 @@ void import(const std::string& store, const std::vector<std::string>& sources, b
   import_terrain(store, options, progress);
 }
 
-/// Geometry, levels and certificates; source numbers follow the order of import.
+/// Geometry, levels and certificates.
 void expect_same_surface(const std::string& a, const std::string& b) {
   const Store first(a), second(b);
   ASSERT_EQ(first.metadata().vertices, second.metadata().vertices);

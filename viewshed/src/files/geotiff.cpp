@@ -190,7 +190,7 @@ class Writer {
     const auto& blockers = result_.get<Blockers>();
     std::vector<std::uint32_t> values = blockers.theme;
     if (!blockers.feature.empty()) {
-      bands.emplace_back("its feature, from 0 in the order of import");
+      bands.emplace_back("its feature, by its number in the theme, from 0");
       values.insert(values.end(), blockers.feature.begin(), blockers.feature.end());
     }
     write<std::uint32_t>(bands, kNoBlocker, values);

@@ -23,4 +23,19 @@ std::vector<std::uint32_t> ranks_of(std::span<const SourceInfo> sources) {
   return ranks;
 }
 
+std::vector<std::uint16_t> numbers_of(std::span<const SourceInfo> sources, const std::vector<bool>& left_out) {
+  const std::vector<std::uint32_t> ranks = ranks_of(sources);
+  const auto key = [&](std::uint16_t s) {
+    const SourceInfo& i = sources[s];
+    return std::tuple(!i.theme.empty(), ranks[s], std::tie(i.makes_room, i.source_crs, i.note, i.wall_offset));
+  };
+  std::vector<std::uint16_t> order;
+  for (std::uint16_t s = 0; s < sources.size(); ++s)
+    if (!left_out[s]) order.push_back(s);
+  std::stable_sort(order.begin(), order.end(), [&](std::uint16_t a, std::uint16_t b) { return key(a) < key(b); });
+  std::vector<std::uint16_t> numbers(sources.size(), kNoSource);
+  for (std::uint16_t n = 0; n < order.size(); ++n) numbers[order[n]] = n;
+  return numbers;
+}
+
 }  // namespace itin

@@ -13,6 +13,7 @@
 
 #include "features/feature_mesh.hpp"
 #include "features/part_vertices.hpp"
+#include "import/source/kept_features.hpp"
 #include "import/source/source_order.hpp"
 #include "pyramid/points_on_lines.hpp"
 #include "store/store_file.hpp"
@@ -99,8 +100,18 @@ void LineCollection::require_room(const std::string& source) const {
                   source, line_vertices_ + feature_vertices_, memory_bytes_ >> 20, needed >> 20));
 }
 
-void LineCollection::take_themes(const StoreMetadata& metadata) {
-  for (const ThemeInfo& theme : metadata.themes) themes_.push_back({.info = theme, .raised = theme.is_raised()});
+void LineCollection::take_themes(const StoreMetadata& metadata, const Sources& left_out) {
+  for (const ThemeInfo& theme : metadata.themes) {
+    CollectedTheme& taken = themes_.emplace_back();
+    taken.info = theme, taken.raised = theme.is_raised(), taken.gone = true;
+    taken.info.wall_offset.reset();
+    for (std::size_t s = 0; s < metadata.sources.size(); ++s) {
+      const SourceInfo& source = metadata.sources[s];
+      if (source.theme != theme.name || left_out.contains(static_cast<std::uint16_t>(s))) continue;
+      taken.gone = false;
+      if (source.wall_offset) taken.info.wall_offset = source.wall_offset;
+    }
+  }
   for (const SourceInfo& source : metadata.sources) theme_of_source_.push_back(source.theme);
   find_first_sources(metadata.sources);
 }
@@ -200,19 +211,120 @@ void LineCollection::add_lines(const std::vector<SourceInfo>& sources, const Rep
       segments_.push_back({vertex(s.ax, s.ay), vertex(s.bx, s.by), static_cast<std::uint32_t>(s.theme - 1), feature});
 }
 
-void LineCollection::take_features(const Store& store) {
-  for (std::size_t t = 0; t < store.metadata().themes.size(); ++t) {
+std::uint64_t LineCollection::take_features(const Store& store, const Sources& left_out) {
+  std::uint64_t count = 0;
+  for (std::uint32_t t = 0; t < store.metadata().themes.size(); ++t) {
     const auto number = static_cast<std::uint16_t>(t + 1);
-    for (StoredFootprint& footprint : stored_footprints(store, number))
-      add_footprint(static_cast<std::uint32_t>(t), std::move(footprint));
-    themes_[t].features = stored_features(store, number);
-    for (const FeatureRecord& record : themes_[t].features.records) record_bytes_ += bytes_of(record);
+    ThemeFeatures features = stored_features(store, number);
+    themes_[t].features.fields = std::move(features.fields);
+    auto record = features.records.begin();
+    if (themes_[t].raised) {
+      for (StoredFootprint& footprint : stored_footprints(store, number)) {
+        std::optional<FeatureRecord> own;
+        if (record != features.records.end()) own = std::move(*record++);
+        if (left_out.contains(footprint.source))
+          ++count;
+        else
+          add_footprint(t, std::move(footprint), std::move(own));
+      }
+      continue;
+    }
+    for (std::uint16_t s = 0; s < store.metadata().sources.size(); ++s) {
+      const SourceInfo& source = store.metadata().sources[s];
+      if (source.theme != themes_[t].info.name) continue;
+      for (std::uint64_t i = 0; i < source.features && record != features.records.end(); ++i)
+        add_feature(t, s, std::move(*record++));
+    }
   }
+  return count;
+}
+
+namespace {
+
+/// Returns the numbers of things that are at `places` now, by the places that they had before.
+std::vector<std::uint32_t> inverse(const std::vector<std::uint32_t>& places) {
+  std::vector<std::uint32_t> numbers(places.size());
+  for (std::uint32_t n = 0; n < places.size(); ++n) numbers[places[n]] = n;
+  return numbers;
+}
+
+template <class T>
+void put_in(const std::vector<std::uint32_t>& order, std::vector<T>& items) {
+  std::vector<T> sorted;
+  sorted.reserve(items.size());
+  for (const std::uint32_t i : order) sorted.push_back(std::move(items[i]));
+  items = std::move(sorted);
+}
+
+/// Puts a theme's features in the order of their sources, whose new numbers they get. Returns their new numbers by the
+/// old ones.
+std::vector<std::uint32_t> renumber_features(CollectedTheme& theme, const std::vector<std::uint16_t>& numbers) {
+  std::vector<std::uint16_t>& source = theme.source_of_feature;
+  for (std::uint16_t& s : source) s = numbers[s];
+  std::vector<std::uint32_t> order(source.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return source[a] < source[b]; });
+  std::vector<FeatureRecord>& records = theme.features.records;
+  records.resize(order.size());
+  put_in(order, records);
+  put_in(order, source);
+  if (theme.raised) {
+    put_in(order, theme.footprints);
+    for (std::size_t i = 0; i < source.size(); ++i) theme.footprints[i].source = source[i];
+    while (!records.empty() && records.back() == FeatureRecord{}) records.pop_back();
+  }
+  return inverse(order);
+}
+
+/// Puts a theme's fields in the order of its sources, as if these had come in that order, and drops those that none
+/// has.
+void rearrange_fields(CollectedTheme& theme, const std::vector<SourceInfo>& sources) {
+  std::vector<AttributeField> fields;
+  std::vector<std::vector<std::size_t>> before(sources.size()), now(sources.size());
+  for (std::size_t s = 0; s < sources.size(); ++s) {
+    if (sources[s].theme != theme.info.name) continue;
+    before[s] = places_among(theme.features.fields, sources[s].fields, sources[s].path);
+    now[s] = places_among(fields, sources[s].fields, sources[s].path);
+  }
+  for (std::size_t i = 0; i < theme.features.records.size(); ++i) {
+    FeatureRecord& record = theme.features.records[i];
+    if (record == FeatureRecord{}) continue;
+    const std::uint16_t s = theme.source_of_feature[i];
+    record.values.resize(theme.features.fields.size());
+    std::vector<AttributeValue> of_source;
+    for (const std::size_t place : before[s]) of_source.push_back(std::move(record.values[place]));
+    record.values = std::move(of_source);
+    record = arranged(std::move(record), now[s]);
+  }
+  theme.features.fields = std::move(fields);
+}
+
+}  // namespace
+
+void LineCollection::renumber(const std::vector<std::uint16_t>& numbers, std::vector<SourceInfo>& sources) {
+  for (SourceInfo& source : sources) source.features = 0;
+  std::vector<std::vector<std::uint32_t>> number_of;  // new numbers of features, by theme and old number
+  for (CollectedTheme& theme : themes_) {
+    number_of.push_back(renumber_features(theme, numbers));
+    rearrange_fields(theme, sources);
+    for (const std::uint16_t s : theme.source_of_feature) ++sources[s].features;
+  }
+  const auto give_number = [&](std::size_t theme, std::uint32_t& feature) {
+    if (feature != kNoFeature) feature = number_of[theme][feature];
+  };
+  for (ImportedPiece& piece : imported_) {
+    piece.segment.source = numbers[piece.segment.source];
+    give_number(piece.theme, piece.segment.feature);
+  }
+  for (SegmentFeature& f : stored_features_) give_number(f.segment.theme - std::size_t{1}, f.feature);
+  std::sort(stored_features_.begin(), stored_features_.end());
+  for (auto& [code, vertex] : vertices_) vertex.source = numbers[vertex.source];
+  theme_of_source_.clear();
 }
 
 std::uint32_t LineCollection::theme(const std::string& name, ThemeKind kind, bool raised) {
-  const auto found =
-      std::find_if(themes_.begin(), themes_.end(), [&](const CollectedTheme& t) { return t.info.name == name; });
+  const auto found = std::find_if(themes_.begin(), themes_.end(),
+                                  [&](const CollectedTheme& t) { return t.info.name == name && !t.gone; });
   if (found == themes_.end()) {
     if (themes_.size() == format::kMaxThemes)
       throw InputError(fmt::format("a store holds at most {} themes", format::kMaxThemes));
@@ -255,22 +367,25 @@ void LineCollection::add(std::uint32_t theme, std::uint16_t source, std::uint32_
   }
 }
 
-std::uint32_t LineCollection::add_feature(std::uint32_t theme, FeatureRecord record) {
+std::uint32_t LineCollection::add_feature(std::uint32_t theme, std::uint16_t source, FeatureRecord record) {
   record_bytes_ += bytes_of(record);
-  std::vector<FeatureRecord>& records = themes_[theme].features.records;
-  records.push_back(std::move(record));
-  return static_cast<std::uint32_t>(records.size() - 1);
+  themes_[theme].features.records.push_back(std::move(record));
+  themes_[theme].source_of_feature.push_back(source);
+  return static_cast<std::uint32_t>(themes_[theme].source_of_feature.size() - 1);
 }
 
 void LineCollection::add_footprint(std::uint32_t theme, StoredFootprint footprint,
                                    std::optional<FeatureRecord> record) {
+  CollectedTheme& own = themes_[theme];
   if (record) {
     // Records have the numbers of their footprints.
-    themes_[theme].features.records.resize(themes_[theme].footprints.size());
-    add_feature(theme, std::move(*record));
+    record_bytes_ += bytes_of(*record);
+    own.features.records.resize(own.footprints.size());
+    own.features.records.push_back(std::move(*record));
   }
   feature_vertices_ += vertex_count(footprint.feature);
-  themes_[theme].footprints.push_back(std::move(footprint));
+  own.source_of_feature.push_back(footprint.source);
+  own.footprints.push_back(std::move(footprint));
 }
 
 bool LineCollection::is_raised() const {
@@ -384,13 +499,14 @@ bool LineCollection::changes_terrain(const ThemeLines& lines) const {
 
 /// Puts the themes of the terrain before the others, then orders by name.
 void LineCollection::put_in_order(ThemeLines& result) {
-  std::vector<std::uint32_t> order(themes_.size());
-  std::iota(order.begin(), order.end(), 0u);
+  std::vector<std::uint32_t> order;
+  for (std::uint32_t t = 0; t < themes_.size(); ++t)
+    if (!themes_[t].gone) order.push_back(t);
   std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
     const ThemeInfo &p = themes_[a].info, &q = themes_[b].info;
     return std::pair(!is_terrain(p.kind), p.name) < std::pair(!is_terrain(q.kind), q.name);
   });
-  std::vector<std::uint32_t> number(order.size());
+  std::vector<std::uint32_t> number(themes_.size());
   std::vector<CollectedTheme> themes;
   for (std::uint32_t i = 0; i < order.size(); ++i) {
     number[order[i]] = i;
@@ -420,7 +536,7 @@ void LineCollection::find_vertices(const std::vector<SourceInfo>& sources) {
 }
 
 ThemeLines LineCollection::finish(const std::vector<SourceInfo>& sources, const Store* ground,
-                                  const ReplacingGround* replacing, const SortedPoints& points, Progress& progress) {
+                                  const ReplacingGround* replacing, const SortedPoints* points, Progress& progress) {
   sort_unique(imported_);
   add_lines(sources, replacing);
   ThemeLines result;
@@ -428,9 +544,9 @@ ThemeLines LineCollection::finish(const std::vector<SourceInfo>& sources, const 
   find_first_sources(sources);
   if (as_ == LinesAs::imported) find_vertices(sources);
   place_parts(result);
-  lead_through_points(points, result.terrain, segments_, progress);
+  if (points != nullptr) lead_through_points(*points, result.terrain, segments_, progress);
   make_lines(result, ground, progress);
-  lead_through_points(points, result.terrain, result.lines, progress);
+  if (points != nullptr) lead_through_points(*points, result.terrain, result.lines, progress);
   std::vector<std::uint32_t> owner(result.lines.vertices.size(), std::numeric_limits<std::uint32_t>::max());
   std::vector<std::vector<Position>> ends(parts_.size());
   for (const PlanarEdge& e : result.lines.edges) {

@@ -20,6 +20,7 @@
 #include "import/source/imported_lines.hpp"
 #include "pyramid/replacing_ground.hpp"
 #include "pyramid/sorted_points.hpp"
+#include "pyramid/source_index.hpp"
 #include "pyramid/theme_lines.hpp"
 #include "store/feature_table.hpp"
 #include "store/point_index.hpp"
@@ -47,8 +48,10 @@ struct CollectedTheme {
   bool raised = false;  ///< whether it has features with heights, which are made parts
   std::vector<StoredFootprint> footprints{};
   ThemeFeatures features{};
-  std::uint16_t first_source = 0;  ///< chosen by a rule that does not depend on the order of import
-  ChangedGround changed{};         ///< what its raised features change
+  std::vector<std::uint16_t> source_of_feature{};  ///< by number of feature
+  bool gone = false;                               ///< whether nothing is left of it, as its sources are left out
+  std::uint16_t first_source = 0;                  ///< chosen by a rule that does not depend on the order of import
+  ChangedGround changed{};                         ///< what its raised features change
 };
 
 class LineCollection {
@@ -60,16 +63,17 @@ class LineCollection {
   void require_room(const std::string& source) const;
 
   /// These functions take over a store's themes, then its lines, their vertices, and how they were imported: in this
-  /// order.
-  void take_themes(const StoreMetadata& metadata);
+  /// order. Of the sources of raised themes, those in `left_out` are left out, by number, and themes with no other.
+  void take_themes(const StoreMetadata& metadata, const Sources& left_out);
   void take_segments(const Store& store);
   /// Takes a vertex over. Returns whether the vertex comes from lines, and so is taken over with them, not with the
   /// points. `of_terrain` tells that it belongs to the full surface.
   bool take_vertex(const GridPoint& p, std::uint16_t source, bool of_terrain);
   void take_set_aside(const StoreRows& rows);
 
-  /// Takes over the footprints of raised themes, whose lines are made again instead, and the records of all features.
-  void take_features(const Store& store);
+  /// Takes over the footprints of raised themes, whose lines are made again instead, and the records of all features,
+  /// but for those of sources in `left_out`. Returns how many features are left out.
+  std::uint64_t take_features(const Store& store, const Sources& left_out);
 
   /// Returns the number of a theme, which is made if none has the name. Throws InputError where the theme that has it
   /// is of another kind, or is raised where the wanted one is not, or the other way round.
@@ -84,9 +88,13 @@ class LineCollection {
   /// The fields of a theme's features.
   std::vector<AttributeField>& fields(std::uint32_t theme) { return themes_[theme].features.fields; }
   /// Adds a feature to a theme of lines on the ground, its values in the order of fields(), and returns its number.
-  std::uint32_t add_feature(std::uint32_t theme, FeatureRecord record);
+  std::uint32_t add_feature(std::uint32_t theme, std::uint16_t source, FeatureRecord record);
   /// Adds a footprint, with a record where its source keeps any.
   void add_footprint(std::uint32_t theme, StoredFootprint footprint, std::optional<FeatureRecord> record = {});
+  /// Gives sources and features their numbers in the new store, once all are added: source s becomes `numbers[s]`, and
+  /// features come in the order of their sources, and then as they were added. `sources` are the store's by their new
+  /// numbers; their features are counted.
+  void renumber(const std::vector<std::uint16_t>& numbers, std::vector<SourceInfo>& sources);
   /// Whether any theme is raised.
   bool is_raised() const;
   /// Builds all raised themes on a store's ground. Throws InputError where that takes more than the memory.
@@ -95,8 +103,9 @@ class LineCollection {
   /// Puts the themes in order and makes the lines of all of them planar. `ground` is as in raise(), if that was called.
   /// Lines as they were imported make room for `replacing`, which may be null, where their sources do. Lines of the
   /// terrain get vertices at those of the ground's points that they pass through.
+  /// `points` may be null where no line lies on the ground.
   ThemeLines finish(const std::vector<SourceInfo>& sources, const Store* ground, const ReplacingGround* replacing,
-                    const SortedPoints& points, Progress& progress);
+                    const SortedPoints* points, Progress& progress);
   /// Tells after finish(), for lines as they lie on the ground, whether raised features have given lines of the terrain
   /// vertices that they do not have on that ground.
   bool changes_terrain(const ThemeLines& lines) const;
