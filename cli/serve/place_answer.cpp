@@ -54,7 +54,8 @@ Document grid_reference(Point2 position, const std::optional<Point2>& geographic
 Document place_answer(const ServedStore& served, const HttpQuery& query, Progress& progress) {
   const StoreMetadata& metadata = served.metadata();
   const std::string& text = place_text(query);
-  const Point2 position = on_the_data(fmt::format("{} '{}'", kAt, text), parse_place(kAt, text), InCrs{}, metadata);
+  const Place place = parse_place(kAt, text);
+  const Point2 position = on_the_data(fmt::format("{} '{}'", kAt, text), place, InCrs{}, metadata);
   const CelestialBody body = body_of(metadata.crs_wkt);
   const std::optional<Point2> geographic = lon_lat(position, metadata, body);
   SilentProgress quiet(progress);
@@ -64,7 +65,8 @@ Document place_answer(const ServedStore& served, const HttpQuery& query, Progres
           {"lon", geographic ? Document(geographic->x) : Document(nullptr)},
           {"lat", geographic ? Document(geographic->y) : Document(nullptr)},
           {"grid_reference", grid_reference(position, geographic, metadata, body)},
-          {"ground_m", ground ? Document(*ground) : Document(nullptr)}};
+          {"ground_m", ground ? Document(*ground) : Document(nullptr)},
+          {"height_m", place.height ? Document(*place.height) : Document(nullptr)}};
 }
 
 }  // namespace itin::cli

@@ -38,6 +38,22 @@ test("modes with values have classes in the legend, and each place its value", a
   await closed(page);
 });
 
+test("modes follow each other, each with its own options", async () => {
+  const page = await pageWithMast();
+  await setField(page, "[name=cell]", "200");
+  for (const mode of ["probability", "visible", "loss", "height", "visible"]) {
+    await page.select("select[name=mode]", mode);
+    await settled(page);
+    assert.equal(await page.$(".mast-summary.problem"), null, mode);
+    assert.match(await text(page, ".mast-summary"), /^sees/);
+  }
+  assert.equal(
+    await page.$eval("#command", (command) => /loss|frequency|vertical-error/.test(command.textContent)),
+    false,
+  );
+  await closed(page);
+});
+
 test("layers change the picture under the masts, and houses are drawn where they are", async () => {
   const page = await pageWithMast(world.town);
   const onMap = { clip: { x: 320, y: 0, width: 700, height: 600 } };

@@ -147,6 +147,16 @@ test("places are typed as the command line takes them, and what it cannot read i
   await add("ST 10375 83525");
   await settled(page);
   assert.deepEqual(await mastAt(page), { x: 310375, y: 183525, h: 20 });
+  // As the map itself tells places, and with a height.
+  for (const [typed, x] of [
+    ["311 000 E 184 000 N", 311000],
+    ["311500 184000", 311500],
+    ["312000,184000,35", 312000],
+  ]) {
+    await add(typed);
+    await until(async () => (await mastAt(page)).x === x, typed);
+  }
+  assert.equal((await mastAt(page)).h, 35);
   await add("nowhere");
   await page.waitForFunction(() => document.querySelector("#place-problem").textContent.includes("nowhere"));
   page.troubles.length = 0; // the browser notes the answer 400

@@ -7,6 +7,7 @@ import { module } from "./page_modules.mjs";
 const { VALUE_MODES, classOf, className } = await module("seen/values");
 const { addressOf, readAddress } = await module("state/address");
 const { letterOf } = await module("state/mast_letter");
+const { countingIn, modeNamed, neededIn, withMode } = await module("state/mode");
 const { Scene } = await module("state/scene");
 const { firstState } = await module("state/first_state");
 const { relief } = await module("map/shade");
@@ -26,6 +27,22 @@ test("classes of values have limits, names and the best first", () => {
   assert.equal(className(VALUE_MODES.height, 0), "up to 2 m");
   assert.equal(className(VALUE_MODES.height, 6), "over 100 m");
   assert.equal(className(VALUE_MODES.angle, 5), "−0.5° to −1°");
+});
+
+test("a mode asks for the options that count in it, and keeps the others for later", () => {
+  const typed = { cell: "50", frequency: "7", fresnel: "0.8", polarisation: "v", "vertical-error": "3" };
+  const asked = (mode) => countingIn(withMode(typed, mode));
+  assert.deepEqual(asked("visible"), { cell: "50", frequency: "7", fresnel: "0.8" });
+  assert.deepEqual(asked("loss"), { cell: "50", frequency: "7", polarisation: "v", loss: "true" });
+  assert.deepEqual(asked("height"), { cell: "50", mode: "height" });
+  assert.deepEqual(asked("probability"), { cell: "50", mode: "probability", "vertical-error": "3" });
+  for (const mode of ["visible", "loss", "height", "probability"]) {
+    assert.equal(modeNamed(withMode(typed, mode)), mode);
+    assert.deepEqual(withMode(withMode(typed, mode), "visible"), typed);
+  }
+  assert.deepEqual(countingIn({ mode: "visible", frequency: "7" }), { frequency: "7" });
+  assert.deepEqual(countingIn({ loss: "true" }), { loss: "true", frequency: "5.8" });
+  assert.deepEqual(neededIn({ mode: "probability" }), { "vertical-error": "1" });
 });
 
 const INFO = {

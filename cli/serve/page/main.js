@@ -105,7 +105,7 @@ async function start() {
   makeSiteMarkers(map, scene);
   makeTargetMarker(map, scene);
   makeViewpointMarker(map, scene);
-  makeSheet(scene, map);
+  makeSheet(scene, views, map);
   makeTasksForm(scene, info);
   makeShowForm(scene);
   takeClicks(scene, map, masts, turbines);

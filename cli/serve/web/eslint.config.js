@@ -30,6 +30,7 @@ const browser = [
   "FormData",
   "Event",
   "KeyboardEvent",
+  "WheelEvent",
   "EventTarget",
   "AbortController",
   "MessageChannel",

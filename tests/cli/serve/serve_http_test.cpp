@@ -203,6 +203,8 @@ TEST_F(ServeHttp, TellsWhereAPlaceIsAndTheGroundThere) {
     EXPECT_EQ(answer.status, 400) << query;
     EXPECT_NE(answer.json().at("error").get<std::string>().find(error), std::string::npos) << answer.body;
   };
+  EXPECT_TRUE(place.at("height_m").is_null());
+  EXPECT_EQ(ask(*server_, "/api/v1/place?at=300500,171000,40").json().at("height_m"), 40);
   expect("", "at: give a place");
   expect("?at=nowhere", "at 'nowhere': ");
   expect("?at=1,2", "off the data");

@@ -26,6 +26,12 @@ function seriesOf({ distance_m, ground_m, surface_m, ray_m, curvature_m, fresnel
   return [distance_m.map((metres) => metres / 1000), over(ground_m), over(surface_m), over(ray_m), zone(-1), zone(1)];
 }
 
+/** Distances along the axis, in metres where the line is short. @param {number[]} km */
+function distanceTexts(km) {
+  const short = (km.at(-1) ?? 0) < 1;
+  return km.map((at) => (short ? `${Math.round(1000 * at)} m` : `${at} km`));
+}
+
 export class ProfileChart {
   /** @type {uPlot | null} */
   #chart = null;
@@ -97,7 +103,7 @@ export class ProfileChart {
         },
       },
       axes: [
-        { ...axis, size: 26, values: (/** @type {any} */ _, /** @type {number[]} */ at) => at.map((km) => `${km} km`) },
+        { ...axis, size: 26, values: (/** @type {any} */ _, /** @type {number[]} */ at) => distanceTexts(at) },
         {
           ...axis,
           size: 58,

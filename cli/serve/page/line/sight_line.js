@@ -1,6 +1,7 @@
 // The line of sight from the mast selected to the target: asked for anew as either moves.
 
 import { observerOf } from "../seen/viewers.js";
+import { neededIn } from "../state/mode.js";
 
 /** @typedef {import("../state/scene.js").Scene} Scene */
 /** @typedef {import("../server/live_connection.js").LiveConnection} LiveConnection */
@@ -50,7 +51,8 @@ const LINE = 1;
 
 /** Both ends of a line between masts stand as masts do. @param {Scene} scene @param {{name: string}} end */
 function optionsOf({ state: { options } }, end) {
-  const shared = Object.fromEntries(Object.entries(options).filter(([name]) => SHARED.includes(name)));
+  const given = { ...neededIn(options), ...options };
+  const shared = Object.fromEntries(Object.entries(given).filter(([name]) => SHARED.includes(name)));
   return end.name ? { ...shared, "target-on": options["observer-on"] ?? "ground" } : shared;
 }
 

@@ -68,6 +68,11 @@ export class Markers {
     for (const chosen of ["pointerdown", "focus"]) {
       button.addEventListener(chosen, () => find()?.selected === false && select(id));
     }
+    // The wheel zooms over a marker as it does beside it.
+    button.addEventListener("wheel", (event) => {
+      event.preventDefault();
+      this.map.getViewport().dispatchEvent(new WheelEvent(event.type, event));
+    });
     follow(this.map, button, {
       place: find,
       cell: () => this.scene.cell,

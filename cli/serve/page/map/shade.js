@@ -23,7 +23,8 @@ export const SLOPE_COLOURS = [
 const NO_GROUND = { light: [226, 228, 234], dark: [24, 27, 33] };
 const PAPER = {
   light: { dark: [92, 96, 98], bright: [255, 254, 250] },
-  dark: { dark: [14, 17, 22], bright: [112, 119, 126] },
+  // Far darker than any colour of what is seen over it.
+  dark: { dark: [8, 10, 14], bright: [62, 67, 73] },
 };
 
 /** How much slopes are exaggerated: maps of large areas have gentle ones. @param {number} resolution */

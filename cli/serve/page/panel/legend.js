@@ -3,12 +3,21 @@
 import { element, make } from "./elements.js";
 import { areaText, shareText } from "./words.js";
 import { CUT, UNDECIDED, VISIBLE } from "../seen/seen_cells.js";
-import { HUES, SHARED, UNDECIDED_COLOUR, UNDECIDED_OPACITY, cssColour, hueCss, meanColour, rampColour } from "../seen/palette.js";
+import {
+  HUES,
+  SHARED,
+  UNDECIDED_COLOUR,
+  UNDECIDED_OPACITY,
+  cssColour,
+  hueCss,
+  meanColour,
+  rampColour,
+} from "../seen/palette.js";
 import { SLOPE_COLOURS, SLOPE_LIMITS } from "../map/shade.js";
 import { sourcesOf } from "../seen/shown.js";
 import { tally } from "../seen/tally.js";
 import { className } from "../seen/values.js";
-import { modeOf, showOf, viewerOf, viewersOf } from "../seen/viewers.js";
+import { modeOf, optionsOf, showOf, viewerOf, viewersOf } from "../seen/viewers.js";
 
 /** @typedef {import("../state/scene.js").Scene} Scene */
 /** @typedef {import("../seen/live_views.js").LiveViews} LiveViews */
@@ -57,7 +66,7 @@ function valueEntries(mode) {
 
 /** @param {Scene} scene @param {Source[]} sources @returns {Entry[]} */
 function verdictEntries(scene, sources) {
-  const { options } = scene.state;
+  const options = optionsOf(scene.state);
   const show = showOf(scene.state);
   const masts = viewersOf(scene.state);
   const single = sources.length === 1;
@@ -75,7 +84,10 @@ function verdictEntries(scene, sources) {
     for (const mast of masts.filter((some) => show !== "alone" || some === chosen)) {
       entries.push([hueCss(mast.hue), `from ${mast.name}`]);
     }
-    if (!single) entries.push([cssColour(meanColour(sources.map(({ hue }) => HUES[hue]))), "mixed: from several", 0.9]);
+    if (!single) {
+      const mixture = meanColour(sources.map(({ hue }) => HUES[hue]));
+      entries.push([cssColour(mixture), "mixtures: from several", 0.9]);
+    }
   }
   if (options.frequency || holds(sources, CUT)) {
     entries.push([hueCss(sources.at(0)?.hue ?? 0), "paler: Fresnel zone cut", 0.3]);
@@ -104,7 +116,7 @@ const isClear = (/** @type {number} */ verdict) => verdict === VISIBLE;
 /** @param {Scene} scene @param {Source[]} sources */
 function sumText(scene, sources) {
   // As masts and sites count: with a frequency what has a clear Fresnel zone.
-  const { frequency } = scene.state.options;
+  const { frequency } = optionsOf(scene.state);
   const { any, all, onlySelected, looked, area } = tally(sources, frequency ? isClear : undefined);
   const part = (/** @type {number} */ cells) => `${areaText(cells * area)} (${shareText(cells, looked)})`;
   const what = frequency ? "Zone clear from" : "From";

@@ -49,6 +49,8 @@ export class MastList {
     const mast = this.scene.state.masts.find((some) => some.id === id);
     const cell = Number(this.scene.state.options.cell) || 10;
     const top = mast && (await this.tiles.highest(mast.x, mast.y, NEAR_BY * cell));
-    if (top) this.scene.changeMast(id, top);
+    const moved = mast && top ? Math.hypot(top.x - mast.x, top.y - mast.y) : 0;
+    if (top && moved > 0) this.scene.changeMast(id, top);
+    this.#rows.get(id)?.tellClimb(top ? moved : null);
   }
 }

@@ -3,7 +3,7 @@
 import { make } from "./elements.js";
 import { LineTo } from "./line_to.js";
 import { inPageWords } from "./page_words.js";
-import { areaText, shareText } from "./words.js";
+import { areaText, numberText, shareText } from "./words.js";
 import { hueCss } from "../seen/palette.js";
 import { letterOf } from "../state/mast_letter.js";
 
@@ -36,6 +36,7 @@ export class MastRow {
   #summary = make("span", "mast-summary");
   #fields = make("div", "mast-fields");
   #notes = make("p", "quiet");
+  #climb = make("p", "quiet");
   /** @type {Record<string, HTMLInputElement>} */
   #inputs = {};
 
@@ -53,6 +54,8 @@ export class MastRow {
       input.addEventListener("change", () => {
         const value = valueOf(name, input.value);
         input.setAttribute("aria-invalid", String(value === null));
+        input.setCustomValidity(value !== null ? "" : name === "name" ? "Give it a name." : "Give a number of metres.");
+        input.reportValidity();
         if (value !== null) scene.changeMast(id, { [name]: value });
       });
       box.append(make("span", "", label), input, ...(unit ? [make("span", "unit", unit)] : []));
@@ -60,7 +63,7 @@ export class MastRow {
       this.#inputs[name] = input;
     }
     const actions = actionsOf(climb, () => scene.removeMast(id));
-    this.#fields.append(this.lineTo.box, actions, this.#notes);
+    this.#fields.append(this.lineTo.box, actions, this.#climb, this.#notes);
     this.item.append(this.#head, this.#fields);
   }
 
@@ -71,6 +74,7 @@ export class MastRow {
     this.item.classList.toggle("selected", chosen);
     this.#head.setAttribute("aria-expanded", String(chosen));
     this.#fields.hidden = !chosen;
+    this.#climb.textContent = "";
     this.#dot.textContent = letterOf(mast);
     this.#name.textContent = mast.name;
     for (const [name] of FIELDS) this.#inputs[name].value = String(mast[name]);
@@ -78,6 +82,16 @@ export class MastRow {
       masts.filter(({ id }) => id !== mast.id),
       target,
     );
+  }
+
+  /** Says how far the way to the top was, metres; null where there is no ground. @param {number | null} moved */
+  tellClimb(moved) {
+    this.#climb.textContent =
+      moved === null
+        ? "There is no ground near by."
+        : moved === 0
+          ? "It stands on the highest ground near by."
+          : `Moved ${numberText(moved)} m to the highest ground near by.`;
   }
 
   /** @param {import("../seen/live_views.js").MastView | undefined} view */
@@ -92,7 +106,7 @@ export class MastRow {
 }
 
 /** @param {import("../server/live_connection.js").Message} done */
-function summaryOf({ cells, area_m2 }) {
+export function summaryOf({ cells, area_m2 }) {
   const looked = cells.visible + cells.hidden + cells.undecided + (cells.zone_cut ?? 0);
   const what = cells.zone_cut === undefined ? "sees" : "zone clear";
   return `${what} ${areaText(area_m2.visible)}, ${shareText(cells.visible, looked)}`;

@@ -1,6 +1,7 @@
 // The fields of options: each field's name is the name of an option of the command line, an empty field its default.
 
 import { element } from "./elements.js";
+import { modeNamed, neededIn, withMode } from "../state/mode.js";
 
 /** @typedef {import("../state/scene.js").Scene} Scene */
 /** @typedef {import("../server/api.js").Info} Info */
@@ -9,7 +10,6 @@ import { element } from "./elements.js";
 // Options that contradict each other: to set one clears the others.
 const INSTEAD = [["refraction", "effective-earth"]];
 const MODE = "mode";
-const LOSS = "loss";
 
 /** @param {Scene} scene @param {Info} info @param {LiveViews} views */
 export function makeOptionsForm(scene, info, views) {
@@ -34,31 +34,28 @@ function setOption(scene, name, value) {
   scene.setOption(name, value);
 }
 
-/**
- * A loss is an option of its own on the command line, and wants a frequency.
- * @param {Scene} scene
- * @param {string} mode
- */
+/** @param {Scene} scene @param {string} mode */
 function setMode(scene, mode) {
-  /** @type {Record<string, string>} */
-  const options = { ...scene.state.options, [MODE]: mode };
-  delete options[LOSS];
-  if (mode === LOSS) {
-    delete options[MODE];
-    Object.assign(options, { [LOSS]: "true", frequency: options.frequency ?? "5.8" });
-  }
-  if (mode === "probability") options["vertical-error"] ??= "1";
-  scene.change({ options });
+  if (mode === "loss") element("radio").setAttribute("open", "");
+  scene.change({ options: withMode(scene.state.options, mode) });
 }
+
+/** What fields show while they are empty, where no mode takes something else. @type {WeakMap<HTMLInputElement, string>} */
+const usual = new WeakMap();
 
 /** @param {HTMLFormElement} form @param {Record<string, string>} options */
 function fillIn(form, options) {
+  const mode = modeNamed(options);
+  const needed = neededIn(options);
   for (const field of form.elements) {
     if (!(field instanceof HTMLInputElement || field instanceof HTMLSelectElement) || !field.name) continue;
-    field.value =
-      field.name === MODE ? (options[LOSS] ? LOSS : (options[MODE] ?? "visible")) : (options[field.name] ?? "");
+    field.value = field.name === MODE ? mode : (options[field.name] ?? "");
+    if (!(field instanceof HTMLInputElement)) continue;
+    if (!usual.has(field)) usual.set(field, field.placeholder);
+    field.placeholder = needed[field.name] ?? usual.get(field) ?? "";
   }
-  element("vertical-error").hidden = options[MODE] !== "probability";
+  element("vertical-error").hidden = mode !== "probability";
+  element("radio-unused").hidden = mode === "visible" || mode === "loss";
 }
 
 /**

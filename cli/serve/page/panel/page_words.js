@@ -9,7 +9,10 @@ const DEGREES = "type degrees with their letters, such as 51.54N 3.29W";
 /** What the command line would do, and what is done in the page instead. The first that fits comes first.
  * @type {[RegExp, string][]} */
 const ADVICE = [
+  [/^--(to|from|observer) '[^']*': (?=a height)/, ""],
   [/^--(to|from|observer) '[^']*': /, "this place "],
+  [/; for an elevation give --absolute-heights/g, ""],
+  [/, or what stands for missing heights/g, ""],
   [/ --nodata says what it does to sight lines that cross it; import a larger/g, " To know more, import a larger"],
   [/import with --sea-level, and beyond the sources with --sea-area/g, SEA],
   [/import with --sea-level/g, SEA],

@@ -19,10 +19,10 @@ export function makePlaceForm(scene, map) {
     event.preventDefault();
     problem.textContent = "";
     try {
-      const { x, y, ground_m } = await askPlace(input.value);
+      const { x, y, ground_m, height_m } = await askPlace(asTyped(input.value));
       if (ground_m === null) throw new Error(`'${input.value}': there is no ground in the data`);
       const place = { x, y };
-      scene.addMast(place);
+      scene.addMast({ ...place, ...(height_m === null ? {} : { height: height_m }) });
       showPlace(map, place);
       input.value = "";
     } catch (error) {
@@ -35,6 +35,19 @@ export function makePlaceForm(scene, map) {
     button.disabled = masts.length >= MOST_MASTS;
     element("map").classList.toggle("placing", task !== "sites" && (placing || masts.length === 0));
   });
+}
+
+/** Writes "317 796 E 185 311 N", as the map tells places, and "317796 185311" as the program reads them.
+ * @param {string} text */
+function asTyped(text) {
+  const told = /^(-?[\d ]+) E (-?[\d ]+) N$/.exec(
+    text
+      .trim()
+      .replaceAll(/[\u2009\u202f\u00a0]/g, " ")
+      .replaceAll("−", "-"),
+  );
+  if (told) return `${told[1].replaceAll(" ", "")},${told[2].replaceAll(" ", "")}`;
+  return text.trim().replace(/^(-?[\d.]+) +(-?[\d.]+)$/, "$1,$2");
 }
 
 /** Brings a place into view. @param {OlMap} map @param {{x: number, y: number}} place */

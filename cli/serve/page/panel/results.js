@@ -3,7 +3,7 @@
 
 import { element } from "./elements.js";
 import { problemText } from "./page_words.js";
-import { observerOf } from "../seen/viewers.js";
+import { observerOf, optionsOf } from "../seen/viewers.js";
 
 /** @typedef {import("../state/scene.js").Scene} Scene */
 /** @typedef {import("../state/scene.js").Mast} Mast */
@@ -59,13 +59,14 @@ export function makeResults(scene, views, jobs) {
       said.textContent = "The command is selected: copy it with Ctrl+C.";
     }
   });
-  const download = new Download(jobs);
-  for (const button of section.querySelectorAll("button[data-ending]")) {
+  const buttons = /** @type {NodeListOf<HTMLButtonElement>} */ (section.querySelectorAll("button[data-ending]"));
+  const download = new Download(jobs, (busy) => buttons.forEach((button) => (button.disabled = busy)));
+  for (const button of buttons) {
     button.addEventListener("click", () => {
       const masts = mastsMeant(scene);
       const ending = button.getAttribute("data-ending") ?? "tif";
       download.start({
-        ...scene.state.options,
+        ...optionsOf(scene.state),
         observer: masts.map(observerOf),
         [OUTPUTS[ending]]: `${fileName(masts)}.${ending}`,
       });
@@ -82,24 +83,24 @@ export function makeResults(scene, views, jobs) {
   scene.on(["masts", "selected", "show"], show);
 }
 
-/** One file that is being made; a second one waits until the first is there. */
+/** One file that is being made; meanwhile no other one can be asked for. */
 class Download {
   #box = element("job");
   #bar = /** @type {HTMLProgressElement} */ (element("job-bar"));
   #said = element("results-said");
   #given = new AbortController();
 
-  /** @param {Jobs} jobs */
-  constructor(jobs) {
+  /** @param {Jobs} jobs @param {(busy: boolean) => void} onBusy */
+  constructor(jobs, onBusy) {
     this.jobs = jobs;
+    this.onBusy = onBusy;
     element("job-cancel").addEventListener("click", () => this.#given.abort());
   }
 
   /** @param {import("../server/api.js").Options} options */
   async start(options) {
-    if (!this.#box.hidden) return;
     this.#said.textContent = "";
-    this.#box.hidden = false;
+    this.#show(true);
     this.#given = new AbortController();
     try {
       const url = await this.jobs.start("viewshed", options);
@@ -108,7 +109,13 @@ class Download {
     } catch (problem) {
       this.#said.textContent = problemText(problem);
     }
-    this.#box.hidden = true;
+    this.#show(false);
+  }
+
+  /** @param {boolean} busy */
+  #show(busy) {
+    this.#box.hidden = !busy;
+    this.onBusy(busy);
   }
 
   /** @param {import("../server/api.js").Job} job */

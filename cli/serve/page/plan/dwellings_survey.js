@@ -44,6 +44,13 @@ export function makeDwellingsSurvey(scene, jobs, info) {
     });
     if (job) sum.textContent = sumText(job.document);
   });
+  run.follow(scene, ["turbines", "options"], () => [
+    scene.state.turbines,
+    jobOptions("dwellings", scene.state.options),
+    ...FIELDS.map(([id]) => field(id).value),
+    field("dwelling-sheets").checked,
+  ]);
+  element("dwellings").addEventListener("change", () => run.compare());
   scene.on(["turbines"], () => (button.disabled = scene.state.turbines.length === 0));
 }
 

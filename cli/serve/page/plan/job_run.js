@@ -9,6 +9,9 @@ import { numberText } from "../panel/words.js";
 /** @typedef {{verb: string, options: import("../server/api.js").Options, uploads: string[]}} Call
  *    `uploads` are files that only this call reads. */
 
+/** @typedef {import("../state/scene.js").Scene} Scene */
+/** @typedef {import("../state/scene.js").SceneState} SceneState */
+
 /** The server's names for files. */
 const UPLOADED = /upload-\d+\.\w+/g;
 
@@ -17,9 +20,14 @@ export class JobRun {
   #bar = make("progress");
   #stage = make("span", "quiet");
   #problem = make("p", "problem");
+  #outdated = make("p", "problem", "Out of date: what was asked has changed since.");
   #warnings = make("p", "quiet run-warnings");
   #files = make("ul", "run-files");
   #given = new AbortController();
+  /** What would be asked now, and what was asked for the result that is shown; null where there is none. */
+  #asks = () => "";
+  /** @type {string | null} */
+  #asked = null;
 
   /** @param {HTMLElement} box @param {Jobs} jobs @param {string} what  What is being done, for those who hear it.
    * @param {(name: string) => boolean} [listed]  Which of the files are listed.
@@ -38,7 +46,9 @@ export class JobRun {
     this.#files.tabIndex = 0;
     this.#files.ariaLabel = "Files";
     box.classList.add("run");
-    box.append(this.#now, this.#problem, this.#warnings, this.#files);
+    this.#outdated.setAttribute("role", "status");
+    box.append(this.#now, this.#problem, this.#outdated, this.#warnings, this.#files);
+    this.compare();
     this.#show(false);
     this.#files.hidden = true;
   }
@@ -49,6 +59,17 @@ export class JobRun {
 
   cancel() {
     this.#given.abort();
+  }
+
+  /** Says of a result that it is out of date, as soon as something else would be asked. @param {Scene} scene
+   * @param {(keyof SceneState)[]} keys @param {() => unknown} asks  What would be asked now. */
+  follow(scene, keys, asks) {
+    this.#asks = () => JSON.stringify(asks());
+    scene.on(keys, () => this.compare());
+  }
+
+  compare() {
+    this.#outdated.hidden = this.#asked === null || this.#asked === this.#asks();
   }
 
   /** Takes back what went wrong, once what was asked has changed. */
@@ -65,6 +86,9 @@ export class JobRun {
     this.#problem.textContent = "";
     this.#warnings.textContent = "";
     this.#files.hidden = true;
+    this.#asked = null;
+    this.compare();
+    const asked = this.#asks();
     this.#look({ share: 0, stage: "waiting", seconds_left: null });
     this.#show(true);
     let job = null;
@@ -76,9 +100,11 @@ export class JobRun {
       }
     }
     if (this.#given === given) this.#show(false);
-    if (given.signal.aborted) return null;
-    if (job) this.#warn(job);
-    if (job) this.#list(job);
+    if (given.signal.aborted || !job) return null;
+    this.#asked = asked;
+    this.compare();
+    this.#warn(job);
+    this.#list(job);
     return job;
   }
 

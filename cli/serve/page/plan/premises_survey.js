@@ -22,8 +22,15 @@ export function makePremisesSurvey(scene, jobs) {
     });
     if (job) sum.textContent = sumText(job.document.premises);
   });
+  run.follow(scene, ["masts", "options"], () => [
+    mastsAsked(scene.state.masts),
+    jobOptions("premises", scene.state.options),
+  ]);
   scene.on(["masts"], () => (button.disabled = scene.state.masts.length === 0));
 }
+
+/** What of the masts counts. @param {import("../state/scene.js").Mast[]} masts */
+const mastsAsked = (masts) => masts.map(({ name, x, y, height }) => [name, x, y, height]);
 
 /** @param {Record<string, number>} counts */
 function sumText({ all, served, on_walls, on_roofs, unserved, undecided, out_of_reach }) {

@@ -86,6 +86,14 @@ export function makeSiteChoice(world) {
   });
   element("plan-back").addEventListener("click", () => putBack(scene));
   element("plan-keep").addEventListener("click", () => keepAsMasts(scene));
+  const FIELDS = ["site-count", "site-height", "site-spacing"];
+  run.follow(scene, ["search", "served", "options"], () => [
+    scene.state.search,
+    scene.state.served,
+    jobOptions("site", scene.state.options),
+    ...FIELDS.map(field),
+  ]);
+  for (const name of FIELDS) element(name).addEventListener("change", () => run.compare());
   scene.on(["search", "served"], () => run.forgive());
   scene.on(["plan"], () => showPlan(scene));
   views.onChange(() => showNow(scene, views));
@@ -93,10 +101,15 @@ export function makeSiteChoice(world) {
 
 /** The sites become masts, beside those there are; all or none, for the map shows only so many. @param {Scene} scene */
 function keepAsMasts(scene) {
-  const sites = scene.state.plan?.sites ?? [];
-  const room = MOST_MASTS - scene.state.masts.length;
+  const { masts, plan } = scene.state;
+  const isThere = (/** @type {import("../state/plan.js").Site} */ site) =>
+    masts.some(
+      ({ name, x, y, height }) => name === site.name && x === site.x && y === site.y && height === site.height,
+    );
+  const sites = (plan?.sites ?? []).filter((site) => !isThere(site));
+  const room = MOST_MASTS - masts.length;
   if (sites.length > room) {
-    const most = `The map shows ${MOST_MASTS} masts, and ${scene.state.masts.length} are there: remove some first.`;
+    const most = `The map shows ${MOST_MASTS} masts, and ${masts.length} are there: remove some first.`;
     element("plan-now").textContent = most;
     return;
   }
@@ -120,9 +133,10 @@ function amountText(value, { cell, asked }) {
 }
 
 /** @param {Plan} plan */
-function sumText({ sites, result }) {
+function sumText({ sites, candidates, result }) {
   const { value, demand, gap, asked, wanted } = result;
-  const all = sites.length < wanted ? ` ${wanted} were asked for: one more would add nothing.` : "";
+  const why = sites.length < candidates.length ? "one more would add nothing" : "there are no more candidates";
+  const all = sites.length < wanted ? ` ${wanted} were asked for: ${why}.` : "";
   const one = sites.length === 1;
   const proof = gap > 0 ? `No choice serves more than ${numberText(gap, 1)} % beyond that` : "No choice serves more";
   return (

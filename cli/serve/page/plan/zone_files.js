@@ -32,6 +32,12 @@ export function makeZoneFiles(scene, jobs) {
       return { verb: "ztv", options: { ...options, ...(sheets.checked ? { sheets: "A3" } : {}) }, uploads: [name] };
     }),
   );
+  run.follow(scene, ["turbines", "options"], () => [
+    scene.state.turbines,
+    jobOptions("ztv", scene.state.options),
+    sheets.checked,
+  ]);
+  sheets.addEventListener("change", () => run.compare());
   scene.on(["turbines"], () => (button.disabled = scene.state.turbines.length === 0));
 }
 

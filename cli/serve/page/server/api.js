@@ -44,7 +44,7 @@ async function ask(path, request) {
 export const askInfo = () => ask("/api/v1/info");
 
 /** @typedef {{x: number, y: number, lon: number | null, lat: number | null, grid_reference: string | null,
- *    ground_m: number | null}} KnownPlace */
+ *    ground_m: number | null, height_m: number | null}} KnownPlace */
 
 /** Understands a place as the command line does: easting,northing, degrees with N, S, E or W, or a grid reference.
  * @param {string} text @returns {Promise<KnownPlace>} */
