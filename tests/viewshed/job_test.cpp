@@ -149,6 +149,25 @@ TEST_F(Job, EndsLoudlyWhereATaskHasTwoAnswers) {
   EXPECT_EQ(files_in("tmp"), 0U);
 }
 
+/// What a runner was writing goes with its claim, and what others write stays.
+TEST_F(Job, RemovesWhatAVanishedRunnerWasWriting) {
+  const ToldTasks tasks(3);
+  create(tasks);
+  leave_claim(1);
+  const std::string tmp = path() + "/tmp/";
+  for (const char* name :
+       {"0123.elsewhere.1", ".0123.elsewhere.part1-1.1", "clock.3.elsewhere.1", "0123.time.elsewhere.1"})
+    std::ofstream(tmp + name) << "half of";
+  for (const char* name : {"0123.elsewhere.2", ".0123.elsewhere.part2-1.2", "clock.3.there.1"})
+    std::ofstream(tmp + name) << "half of";
+  EXPECT_EQ(files_in("tmp"), 7U);
+  std::ignore = JobFolder(path()).claims(60);
+  EXPECT_EQ(files_in("tmp"), 7U) << "to ask who works removes nothing";
+  std::ignore = JobFolder(path()).clear_claims(60);
+  EXPECT_EQ(files_in("tmp"), 3U);
+  EXPECT_EQ(files_in("claims"), 0U);
+}
+
 /// A runner that is killed while it writes leaves a part of a file.
 TEST_F(Job, PassesOverWhatARunnerLeftUnfinished) {
   const ToldTasks tasks(2);
