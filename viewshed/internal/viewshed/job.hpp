@@ -108,6 +108,8 @@ class JobFolder {
   std::string name_path(const char* folder, std::size_t task) const;
   std::optional<std::size_t> task_of(const std::string& name) const;
   void remove_unfinished_of(const std::string& runner) const;
+  /// Returns the path of the claim of a task that was touched first; empty where there is none.
+  std::string first_claim(std::size_t task) const;
   /// Tells the live claims, and calls stale(path, claim) for the others.
   template <class Stale>
   std::vector<Claim> claims_but(double patience, const Stale& stale) const;

@@ -7,10 +7,12 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <limits>
 #include <numeric>
 #include <sstream>
 #include <sys/stat.h>
 #include <unistd.h>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -361,6 +363,17 @@ std::vector<JobFolder::Claim> JobFolder::claims_but(double patience, const Stale
 
 std::vector<JobFolder::Claim> JobFolder::claims(double patience) const {
   return claims_but(patience, [](const std::string&, const Claim&) {});
+}
+
+std::string JobFolder::first_claim(std::size_t task) const {
+  std::pair<double, std::string> first{std::numeric_limits<double>::infinity(), ""};
+  for (const std::string& name : names_in(path_ + "/claims")) {
+    if (task_of(name) != task) continue;
+    const std::string path = path_ + "/claims/" + name;
+    // Of claims of the same moment the one of the least name counts as the first.
+    if (const auto touched = touched_at(path)) first = std::min(first, {*touched, path});
+  }
+  return first.second;
 }
 
 /// Removes what a runner was writing in tmp/. The names of its files end as its own does; one that is not complete, of

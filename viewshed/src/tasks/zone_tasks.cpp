@@ -18,18 +18,18 @@ namespace itin::viewshed {
 namespace {
 
 /// The grids of floats that answers hold; shares follow from counts.
-constexpr ZoneQuantity kQuantities[] = {&Visibility::visible_height_m,
-                                        &Visibility::vertical_angle_deg,
-                                        &Visibility::vertical_angle_sum_deg,
-                                        &Visibility::horizontal_angle_deg,
-                                        &Visibility::horizontal_from_deg,
-                                        &Visibility::horizontal_occupied_deg,
-                                        &Visibility::nearest_m};
+constexpr ZoneQuantity kAnsweredQuantities[] = {&Visibility::visible_height_m,
+                                                &Visibility::vertical_angle_deg,
+                                                &Visibility::vertical_angle_sum_deg,
+                                                &Visibility::horizontal_angle_deg,
+                                                &Visibility::horizontal_from_deg,
+                                                &Visibility::horizontal_occupied_deg,
+                                                &Visibility::nearest_m};
 
 template <class Archive, class V>
 void exchange_visibility(Archive& archive, V& v) {
   archive(v.hub_count, v.tip_count, v.hub_undecided, v.tip_undecided, v.turbines, v.hubs);
-  for (const ZoneQuantity quantity : kQuantities) archive(v.*quantity);
+  for (const ZoneQuantity quantity : kAnsweredQuantities) archive(v.*quantity);
 }
 
 template <class Archive, class Z>
@@ -63,7 +63,7 @@ class Copies {
     const Copies& copy = *this;
     copy(from.hub_count, to.hub_count), copy(from.tip_count, to.tip_count);
     copy(from.turbines, to.turbines), copy(from.hubs, to.hubs);
-    for (const ZoneQuantity quantity : kQuantities)
+    for (const ZoneQuantity quantity : kAnsweredQuantities)
       if (!(to.*quantity).empty()) copy(from.*quantity, to.*quantity);
     undecided(from.tip_count, from.hub_undecided, to.hub_undecided);
     undecided(from.tip_count, from.tip_undecided, to.tip_undecided);
@@ -86,7 +86,7 @@ class Copies {
 };
 
 /// Returns the zone of a task's cells, with room for what the whole has. Throws NotThoseValues.
-Zone part_of(const Zone& whole, std::string_view answer) {
+Zone zone_of_answer(const Zone& whole, std::string_view answer) {
   Zone part;
   if (whole.screened) part.screened.emplace();
   if (whole.seasons) part.seasons.emplace();
@@ -112,7 +112,7 @@ class QuantitiesOfAnswers final : public ZoneQuantities {
   std::vector<float> values(ZoneQuantity quantity, bool screened) const override {
     std::vector<float> all(layout_.grid.cell_count(), std::numeric_limits<float>::quiet_NaN());
     for (std::size_t i = 0; i < tasks_.size(); ++i) {
-      Zone part = part_of(layout_, answers_(i));
+      Zone part = zone_of_answer(layout_, answers_(i));
       Visibility& seen = screened ? part.screened.value() : part.bare;
       seen.share.assign(seen.tip_count.size(), std::numeric_limits<float>::quiet_NaN());
       complete_shares(seen, layout_.request.turbines.size());
@@ -202,7 +202,7 @@ void ZoneTasks::add(std::size_t task, std::string_view answer) {
   if (zone_->bare.tip_count.empty()) prepare();
   Zone& whole = *zone_;
   const std::vector<Turbine> turbines = request_of(task).turbines;
-  const Zone part = part_of(whole, answer);
+  const Zone part = zone_of_answer(whole, answer);
   const Copies copy(cells_of(list_.at(task)), whole.grid);
   copy(part.bare, whole.bare);
   if (whole.screened) copy(*part.screened, *whole.screened);
