@@ -370,7 +370,7 @@ std::string JobFolder::first_claim(std::size_t task) const {
   for (const std::string& name : names_in(path_ + "/claims")) {
     if (task_of(name) != task) continue;
     const std::string path = path_ + "/claims/" + name;
-    // Of claims of the same moment the one of the least name counts as the first.
+    // The least name counts as the first among claims of the same moment.
     if (const auto touched = touched_at(path)) first = std::min(first, {*touched, path});
   }
   return first.second;

@@ -164,7 +164,7 @@ std::uint64_t bytes_of_results(const Zone& zone) {
   const std::uint64_t surfaces = zone.screened ? 2 : 1, counts = zone.leaves_open() ? 8 : 4,
                       open_heights = zone.request.nodata == NoData::kUnknown && zone.radar && zone.radar->crosses_voids,
                       of_radar = zone.radar ? 4 * (1 + open_heights) : 0, sets = zone.request.foliage ? 2 : 1;
-  // Of quantities that are elsewhere two and their difference are held at a time.
+  // Two quantities that are elsewhere are held at a time, and their difference.
   const std::uint64_t of_quantities = zone.quantities ? 12 : 32 * surfaces;
   return (of_quantities + surfaces * (counts + 4 * sets * zone.words) + of_radar) * zone.grid.cell_count();
 }
