@@ -243,6 +243,7 @@ class JobVerb final : public Verb {
     PlannedCall call(job, store_, progress);
     const auto tasks = call.divide(progress);
     job.require_same(*tasks);
+    tasks->read_again_by([&](std::size_t task) { return job.answer(task); });
     CallProgress whole(progress);
     Progress& reading = whole.step(kShareOfReading);
     for (std::size_t task = 0; task < job.count(); ++task) {

@@ -74,24 +74,32 @@ class DaskRunners:
         self.port = str(random.randrange(20000, 30000))
         self.address = f"tcp://127.0.0.1:{self.port}"
         self.scheduler = self.start_scheduler()
-        self.workers = subprocess.Popen(
-            ["dask", "worker", self.address, "--nworkers", "2", "--nthreads", "1", "--no-dashboard"],
-            stdout=subprocess.DEVNULL,
-            stderr=subprocess.DEVNULL,
-        )
+        self.workers = self.start_workers()
         self.client = self.start_client()
+        self.restarts = 0
 
     def start_scheduler(self):
         command = ["dask", "scheduler", "--host", "127.0.0.1", "--port", self.port, "--no-dashboard"]
         return subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+
+    def start_workers(self):
+        command = ["dask", "worker", self.address, "--nworkers", "2", "--nthreads", "1", "--no-dashboard"]
+        return subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+
+    def restart_what_ended(self):
+        """Workers end by themselves where their scheduler does not come back soon."""
+        if self.client.poll() not in (None, 0):
+            self.client = self.start_client()
+        if self.workers.poll() is not None:
+            self.workers = self.start_workers()
+            self.restarts += 1
 
     def start_client(self):
         command = [DASK, self.job, "--scheduler", self.address, "--itin", self.program, "--patience", PATIENCE, "--quiet"]
         return subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
 
     def kill_one(self, chance):
-        if self.client.poll() is not None:
-            self.client = self.start_client()
+        self.restart_what_ended()
         if chance.random() < 0.02:
             self.scheduler.kill()
             self.scheduler.wait()
@@ -106,12 +114,14 @@ class DaskRunners:
         return True
 
     def finish(self):
-        for _ in range(10):
-            if self.client.wait() == 0:
-                break
-            self.client = self.start_client()
-        else:
-            sys.exit("itin-dask does not come to an end")
+        last = time.time() + 600
+        while self.client.poll() != 0:
+            self.restart_what_ended()
+            time.sleep(0.5)
+            if time.time() > last:
+                sys.exit("itin-dask does not come to an end")
+        if self.restarts > 0:
+            print(f"the workers ended with their scheduler, and were started again, {self.restarts} times")
         for process in (self.workers, self.scheduler):
             process.terminate()
             process.wait()

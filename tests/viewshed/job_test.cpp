@@ -53,15 +53,15 @@ class Job : public testing::Test {
     for ([[maybe_unused]] const auto& entry : fs::directory_iterator(path() + "/" + folder)) ++count;
     return count;
   }
-  /// Leaves the claim of a runner that is gone.
-  void leave_claim(std::size_t task) {
+  /// Leaves the claim of another runner, touched so long after now.
+  void leave_claim(std::size_t task, int seconds) {
     std::ifstream lines(path() + "/tasks.jsonl");
     for (std::string line; std::getline(lines, line);) {
       const Document document = Document::parse(line);
       if (document["n"] != task) continue;
       const std::string claim = path() + "/claims/" + document["id"].get<std::string>() + ".elsewhere.1";
       std::ofstream(claim) << "\n";
-      fs::last_write_time(claim, fs::file_time_type::clock::now() - std::chrono::hours(1));
+      fs::last_write_time(claim, fs::file_time_type::clock::now() + std::chrono::seconds(seconds));
     }
   }
   static JobEnd end_of(const std::function<void()>& call) {
@@ -112,7 +112,7 @@ TEST_F(Job, BeginsWithTheDearest) {
 TEST_F(Job, LeavesTasksToThoseWhoClaimThem) {
   const ToldTasks tasks(3);
   create(tasks);
-  leave_claim(1);
+  leave_claim(1, -3600);
   const JobFolder job(path());
   EXPECT_TRUE(job.claims(60).empty());
   ASSERT_EQ(job.claims(7200).size(), 1U);
@@ -137,6 +137,33 @@ TEST_F(Job, LeavesTasksToThoseWhoClaimThem) {
   EXPECT_EQ(job.failures(1), std::vector<std::string>{"the runner elsewhere.1 vanished"});
 }
 
+/// Two runners see a task open at the same time, and both claim it: it is that of the first claim.
+TEST_F(Job, LeavesATaskToTheOneWhoClaimedItFirst) {
+  for (const bool other_is_first : {true, false}) {
+    SCOPED_TRACE(other_is_first);
+    fs::remove_all(path());
+    const ToldTasks tasks(3);
+    create(tasks);
+    const JobFolder job(path());
+    /// Claims task 2, the first to be answered, for another runner, which answers it while this one is at the next.
+    struct Claiming final : Progress {
+      std::function<void()> next;
+      void report(std::string_view stage, double) override {
+        if (stage.starts_with("task")) next();
+      }
+    } progress;
+    int reported = 0;
+    progress.next = [&] {
+      if (++reported == 1) leave_claim(2, other_is_first ? -2 : 2);
+      if (reported == 2 && other_is_first) job.seal(2, "answer 2", [] {});
+    };
+    const RunReport report = run_job(
+        job, tasks, [] {}, {}, progress);
+    EXPECT_EQ(report.answered, other_is_first ? 2U : 3U);
+    for (const std::size_t task : {0U, 1U, 2U}) EXPECT_TRUE(job.is_done(task));
+  }
+}
+
 TEST_F(Job, EndsLoudlyWhereATaskHasTwoAnswers) {
   const ToldTasks tasks(2);
   create(tasks);
@@ -147,6 +174,25 @@ TEST_F(Job, EndsLoudlyWhereATaskHasTwoAnswers) {
   EXPECT_EQ(job.answer(0), "one");
   EXPECT_EQ(files_in("failed"), 1U) << "the other answer is kept";
   EXPECT_EQ(files_in("tmp"), 0U);
+}
+
+/// What a runner was writing goes with its claim, and what others write stays.
+TEST_F(Job, RemovesWhatAVanishedRunnerWasWriting) {
+  const ToldTasks tasks(3);
+  create(tasks);
+  leave_claim(1, -3600);
+  const std::string tmp = path() + "/tmp/";
+  for (const char* name :
+       {"0123.elsewhere.1", ".0123.elsewhere.part1-1.1", "clock.3.elsewhere.1", "0123.time.elsewhere.1"})
+    std::ofstream(tmp + name) << "half of";
+  for (const char* name : {"0123.elsewhere.2", ".0123.elsewhere.part2-1.2", "clock.3.there.1"})
+    std::ofstream(tmp + name) << "half of";
+  EXPECT_EQ(files_in("tmp"), 7U);
+  std::ignore = JobFolder(path()).claims(60);
+  EXPECT_EQ(files_in("tmp"), 7U) << "to ask who works removes nothing";
+  std::ignore = JobFolder(path()).clear_claims(60);
+  EXPECT_EQ(files_in("tmp"), 3U);
+  EXPECT_EQ(files_in("claims"), 0U);
 }
 
 /// A runner that is killed while it writes leaves a part of a file.

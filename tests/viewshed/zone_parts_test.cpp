@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <itin/byte_archive.hpp>
 #include <itin/error.hpp>
 #include <itin/import.hpp>
 #include <viewshed/tasks.hpp>
@@ -100,6 +101,7 @@ class ZoneParts : public testing::Test {
     for (const double share : {0.6, 0.4}) expect_same(survey_in_parts(whole, share), whole);
     expect_same(survey_in_tasks(20000), whole);
     expect_same(survey_in_tasks(1), whole);
+    expect_quantities_read_again(whole, 20000);
   }
 
   /// In tasks, the last one first, all of them by other objects than the one that puts them together.
@@ -113,6 +115,30 @@ class ZoneParts : public testing::Test {
       tasks.add(i, other.answer(i, progress_));
     }
     return tasks.take();
+  }
+
+  /// Quantities that are read again from the answers are those that a zone holds.
+  void expect_quantities_read_again(const Zone& zone, std::uint64_t most_cells) {
+    const Store store(path());
+    ZoneTasks tasks(store, request_, most_cells, progress_);
+    std::vector<std::string> answers;
+    for (std::size_t i = 0; i < tasks.list().size(); ++i) answers.push_back(tasks.answer(i, progress_));
+    tasks.read_again_by([&](std::size_t task) { return answers.at(task); });
+    for (std::size_t i = answers.size(); i-- > 0;) tasks.add(i, answers[i]);
+    const Zone merged = tasks.take();
+    ASSERT_TRUE(merged.quantities);
+    EXPECT_EQ(merged.bare.tip_count, zone.bare.tip_count);
+    EXPECT_EQ(merged.bare.turbines, zone.bare.turbines);
+    for (const ZoneQuantity quantity :
+         {&Visibility::visible_height_m, &Visibility::vertical_angle_deg, &Visibility::vertical_angle_sum_deg,
+          &Visibility::horizontal_angle_deg, &Visibility::horizontal_from_deg, &Visibility::horizontal_occupied_deg,
+          &Visibility::share, &Visibility::nearest_m}) {
+      EXPECT_TRUE((merged.bare.*quantity).empty());
+      test::expect_same(merged.quantities->values(quantity, false), zone.bare.*quantity);
+      if (zone.screened) test::expect_same(merged.quantities->values(quantity, true), (*zone.screened).*quantity);
+    }
+    answers.back().pop_back();
+    EXPECT_THROW(std::ignore = merged.quantities->values(&Visibility::share, false), NotThoseValues);
   }
 
   /// North of the lake, which lies between it and some of the cells.

@@ -18,6 +18,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -112,6 +113,18 @@ struct Visibility {
   std::vector<double> height_sums_m;
 };
 
+/// One of the grids of floats of a Visibility.
+using ZoneQuantity = std::vector<float> Visibility::*;
+
+/// The quantities of a zone that does not hold them in memory, since they are large.
+class ZoneQuantities {
+ public:
+  virtual ~ZoneQuantities() = default;
+  /// Returns the values of a quantity, over the bare ground or over what screens. Throws FileError where they can no
+  /// longer be read.
+  virtual std::vector<float> values(ZoneQuantity quantity, bool screened) const = 0;
+};
+
 /// Returns where Visibility::turbines keeps turbine `number` (from 1).
 constexpr RasterBit turbine_bit(std::size_t number) {
   return raster_bit(number - 1);
@@ -161,6 +174,8 @@ struct Zone {
   std::optional<Visibility> screened;  ///< with the themes' features standing on the ground, where asked for
   std::optional<Seasons> seasons;      ///< where woods are not solid
   std::optional<RadarView> radar;
+  /// Not null: the grids of floats of `bare` and `screened` are empty, and are had from here one at a time.
+  std::shared_ptr<const ZoneQuantities> quantities;
   std::vector<std::string> warnings;
   Statistics statistics;  ///< counts pairs of eye and turbine as lines
 

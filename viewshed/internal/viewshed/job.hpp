@@ -17,7 +17,7 @@
 //   failed/NAME.K       the K-th failure of the task
 //
 // Nothing is ever locked. Two runners may answer the same task: their answers have the same bytes, or both end loudly.
-// A name is that of a task of one job; a runner's is its machine and process.
+// A name is that of a task of one job; a runner's is its machine, its process and a number drawn at random.
 #pragma once
 
 #include <cstddef>
@@ -99,13 +99,17 @@ class JobFolder {
     std::string runner;
   };
   std::vector<Claim> claims(double patience) const;
-  /// Returns the same, and removes the claims of runners that have vanished, and notes for their tasks that they have.
+  /// Returns the same. Removes the claims of runners that have vanished, and what these were writing, and notes for
+  /// their tasks that they have.
   std::vector<Claim> clear_claims(double patience) const;
 
  private:
   friend class JobClaim;
   std::string name_path(const char* folder, std::size_t task) const;
   std::optional<std::size_t> task_of(const std::string& name) const;
+  void remove_unfinished_of(const std::string& runner) const;
+  /// Returns the path of the claim of a task that was touched first; empty where there is none.
+  std::string first_claim(std::size_t task) const;
   /// Tells the live claims, and calls stale(path, claim) for the others.
   template <class Stale>
   std::vector<Claim> claims_but(double patience, const Stale& stale) const;

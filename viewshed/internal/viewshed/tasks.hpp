@@ -10,6 +10,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -38,6 +39,9 @@ struct Task {
   std::uint64_t cells() const { return static_cast<std::uint64_t>(columns * rows); }
 };
 
+/// Returns the answer of a task, whenever it is asked.
+using AnswerAgain = std::function<std::string(std::size_t task)>;
+
 /// answer() is safe for concurrent use with itself.
 class Tasks {
  public:
@@ -49,6 +53,9 @@ class Tasks {
   virtual const std::vector<Task>& list() const = 0;
   /// Answers a task. Throws what the question asked as a whole throws.
   virtual std::string answer(std::size_t task, Progress& progress) const = 0;
+  /// Lets the result be without what is large and may be read again from the answers, for as long as the result lives.
+  /// To be called before add().
+  virtual void read_again_by(const AnswerAgain&) {}
   /// Adds the answer of a task. Throws NotThoseValues for other bytes.
   virtual void add(std::size_t task, std::string_view answer) = 0;
 };
@@ -103,6 +110,7 @@ class ZoneTasks final : public Tasks {
 
   const std::vector<Task>& list() const override { return list_; }
   std::string answer(std::size_t task, Progress& progress) const override;
+  void read_again_by(const AnswerAgain& answers) override;
   void add(std::size_t task, std::string_view answer) override;
   /// Returns the whole zone. Precondition: all answers were added.
   Zone take();

@@ -19,7 +19,7 @@ constexpr double kTouches = 4;
 }  // namespace
 
 JobClaim::JobClaim(const JobFolder& job, std::size_t task, double patience_s)
-    : file_(job.name_path("claims", task) + "." + runner_name()) {
+    : job_(job), task_(task), file_(job.name_path("claims", task) + "." + runner_name()) {
   const int file = ::open(file_.path().c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   if (file < 0) throw JobError(JobEnd::kTryAgain, file_.path() + ": cannot be written: " + std::strerror(errno));
   ::close(file);
@@ -33,6 +33,10 @@ JobClaim::~JobClaim() {
   }
   ended_.notify_all();
   toucher_.join();
+}
+
+bool JobClaim::is_first() const {
+  return job_.first_claim(task_) == file_.path();
 }
 
 void JobClaim::keep_touching(double every_s) {

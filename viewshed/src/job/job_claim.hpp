@@ -20,12 +20,17 @@ class JobClaim {
   /// Throws JobError where the file cannot be written.
   JobClaim(const JobFolder& job, std::size_t task, double patience_s);
   ~JobClaim();
+  /// Tells whether no other runner has claimed the task before. Runners that saw it open at the same time all claim it,
+  /// and all but the first leave it.
+  bool is_first() const;
   JobClaim(const JobClaim&) = delete;
   JobClaim& operator=(const JobClaim&) = delete;
 
  private:
   void keep_touching(double every_s);
 
+  const JobFolder& job_;
+  std::size_t task_;
   Unfinished file_;
   std::mutex mutex_;
   std::condition_variable ended_;

@@ -7,10 +7,12 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <limits>
 #include <numeric>
 #include <sstream>
 #include <sys/stat.h>
 #include <unistd.h>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -130,7 +132,7 @@ std::optional<double> touched_at(const std::string& path) {
 /// The time on the file server's clock.
 double time_of_server(const std::string& job) {
   static std::atomic<unsigned> asked = 0;
-  const std::string path = fmt::format("{}/tmp/clock.{}.{}", job, runner_name(), ++asked);
+  const std::string path = fmt::format("{}/tmp/clock.{}.{}", job, ++asked, runner_name());
   const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   if (file < 0 || ::write(file, "\n", 1) != 1) {
     const std::string why = std::strerror(errno);
@@ -320,7 +322,14 @@ void JobFolder::forget_failures() const {
 
 void JobFolder::note_time(std::size_t task, double seconds, std::uint64_t peak_bytes) const {
   const Document note{{"seconds", seconds}, {"peak_memory_bytes", peak_bytes}, {"runner", runner_name()}};
-  write_file(name_path("stats", task) + ".json", json_text(note) + "\n", true);
+  // Another machine may note the same task at the same time.
+  Unfinished file(fmt::format("{}.time.{}", name_path("tmp", task), runner_name()));
+  write_file(file.path(), json_text(note) + "\n", false);
+  const std::string path = name_path("stats", task) + ".json";
+  file.finish([&] {
+    if (std::rename(file.path().c_str(), path.c_str()) != 0)
+      throw JobError(JobEnd::kTryAgain, path + ": cannot be written: " + std::strerror(errno));
+  });
 }
 
 double JobFolder::seconds_spent() const {
@@ -356,10 +365,39 @@ std::vector<JobFolder::Claim> JobFolder::claims(double patience) const {
   return claims_but(patience, [](const std::string&, const Claim&) {});
 }
 
+std::string JobFolder::first_claim(std::size_t task) const {
+  std::pair<double, std::string> first{std::numeric_limits<double>::infinity(), ""};
+  for (const std::string& name : names_in(path_ + "/claims")) {
+    if (task_of(name) != task) continue;
+    const std::string path = path_ + "/claims/" + name;
+    // The least name counts as the first among claims of the same moment.
+    if (const auto touched = touched_at(path)) first = std::min(first, {*touched, path});
+  }
+  return first.second;
+}
+
+/// Removes what a runner was writing in tmp/. The names of its files end as its own does; one that is not complete, of
+/// which the name begins with a dot, has a number of its process within.
+void JobFolder::remove_unfinished_of(const std::string& runner) const {
+  const fs::path name = runner;
+  std::error_code error;
+  std::vector<fs::path> left;
+  for (fs::directory_iterator at(path_ + "/tmp", error), end; !error && at != end; at.increment(error)) {
+    const std::string file = at->path().filename().string();
+    const bool complete = file.ends_with("." + runner);
+    const bool begun = file.front() == '.' && file.find("." + name.stem().string() + ".part") != std::string::npos &&
+                       file.ends_with(name.extension().string());
+    if (complete || begun) left.push_back(at->path());
+  }
+  for (const fs::path& file : left) fs::remove(file, error);
+}
+
 std::vector<JobFolder::Claim> JobFolder::clear_claims(double patience) const {
   return claims_but(patience, [&](const std::string& path, const Claim& claim) {
     // The one of several that removes it notes it.
-    if (::unlink(path.c_str()) != 0 || is_done(claim.task)) return;
+    if (::unlink(path.c_str()) != 0) return;
+    remove_unfinished_of(claim.runner);
+    if (is_done(claim.task)) return;
     const std::string failed = name_path("failed", claim.task);
     write_next([&](std::size_t k) { return vanished(failed, k); }, kMostVanished,
                fmt::format("the runner {} vanished", claim.runner));

@@ -63,10 +63,13 @@ class Runner {
     return false;
   }
 
+  /// Answers the task, unless another runner has claimed it meanwhile.
   void answer(std::size_t task) {
     const double share = static_cast<double>(all_ - open_.size()) / static_cast<double>(all_);
     progress_.report(fmt::format("task {} of {}", task, job_.count()), share);
     const JobClaim claim(job_, task, options_.patience_s);
+    // Another one may have answered it since it was seen to be open.
+    if (!claim.is_first() || job_.is_done(task)) return;
     Stopwatch watch;
     std::string answer;
     try {

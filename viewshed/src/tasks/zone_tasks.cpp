@@ -1,5 +1,5 @@
 #include <algorithm>
-#include <type_traits>
+#include <limits>
 #include <utility>
 
 #include <itin/byte_archive.hpp>
@@ -17,11 +17,19 @@ namespace itin::viewshed {
 
 namespace {
 
+/// The grids of floats that answers hold; shares follow from counts.
+constexpr ZoneQuantity kAnsweredQuantities[] = {&Visibility::visible_height_m,
+                                                &Visibility::vertical_angle_deg,
+                                                &Visibility::vertical_angle_sum_deg,
+                                                &Visibility::horizontal_angle_deg,
+                                                &Visibility::horizontal_from_deg,
+                                                &Visibility::horizontal_occupied_deg,
+                                                &Visibility::nearest_m};
+
 template <class Archive, class V>
 void exchange_visibility(Archive& archive, V& v) {
-  archive(v.hub_count, v.tip_count, v.hub_undecided, v.tip_undecided, v.turbines, v.hubs, v.visible_height_m,
-          v.vertical_angle_deg, v.vertical_angle_sum_deg, v.horizontal_angle_deg, v.horizontal_from_deg,
-          v.horizontal_occupied_deg, v.nearest_m);
+  archive(v.hub_count, v.tip_count, v.hub_undecided, v.tip_undecided, v.turbines, v.hubs);
+  for (const ZoneQuantity quantity : kAnsweredQuantities) archive(v.*quantity);
 }
 
 template <class Archive, class Z>
@@ -55,11 +63,8 @@ class Copies {
     const Copies& copy = *this;
     copy(from.hub_count, to.hub_count), copy(from.tip_count, to.tip_count);
     copy(from.turbines, to.turbines), copy(from.hubs, to.hubs);
-    copy(from.visible_height_m, to.visible_height_m);
-    copy(from.vertical_angle_deg, to.vertical_angle_deg), copy(from.vertical_angle_sum_deg, to.vertical_angle_sum_deg);
-    copy(from.horizontal_angle_deg, to.horizontal_angle_deg), copy(from.horizontal_from_deg, to.horizontal_from_deg);
-    copy(from.horizontal_occupied_deg, to.horizontal_occupied_deg);
-    copy(from.nearest_m, to.nearest_m);
+    for (const ZoneQuantity quantity : kAnsweredQuantities)
+      if (!(to.*quantity).empty()) copy(from.*quantity, to.*quantity);
     undecided(from.tip_count, from.hub_undecided, to.hub_undecided);
     undecided(from.tip_count, from.tip_undecided, to.tip_undecided);
   }
@@ -78,6 +83,48 @@ class Copies {
 
   CellRectangle cells_;
   const RasterGrid& whole_;
+};
+
+/// Returns the zone of a task's cells, with room for what the whole has. Throws NotThoseValues.
+Zone zone_of_answer(const Zone& whole, std::string_view answer) {
+  Zone part;
+  if (whole.screened) part.screened.emplace();
+  if (whole.seasons) part.seasons.emplace();
+  if (whole.radar) part.radar.emplace();
+  ValueReader reader(answer);
+  exchange_zone(reader, part);
+  reader.expect_end();
+  return part;
+}
+
+void complete_shares(Visibility& v, std::size_t turbines) {
+  for (std::size_t i = 0; i < v.share.size(); ++i)
+    if (v.tip_count[i] != kCountOutside) v.share[i] = share_of_turbines(v.tip_count[i], turbines);
+}
+
+/// The quantities as the answers of tasks have them.
+class QuantitiesOfAnswers final : public ZoneQuantities {
+ public:
+  /// All that is in the layout of the whole belongs to the answers; nothing is seen in it yet.
+  QuantitiesOfAnswers(const Zone& layout, std::vector<Task> tasks, AnswerAgain answers)
+      : layout_(layout), tasks_(std::move(tasks)), answers_(std::move(answers)) {}
+
+  std::vector<float> values(ZoneQuantity quantity, bool screened) const override {
+    std::vector<float> all(layout_.grid.cell_count(), std::numeric_limits<float>::quiet_NaN());
+    for (std::size_t i = 0; i < tasks_.size(); ++i) {
+      Zone part = zone_of_answer(layout_, answers_(i));
+      Visibility& seen = screened ? part.screened.value() : part.bare;
+      seen.share.assign(seen.tip_count.size(), std::numeric_limits<float>::quiet_NaN());
+      complete_shares(seen, layout_.request.turbines.size());
+      Copies(cells_of(tasks_[i]), layout_.grid)(seen.*quantity, all);
+    }
+    return all;
+  }
+
+ private:
+  Zone layout_;
+  std::vector<Task> tasks_;
+  AnswerAgain answers_;
 };
 
 Box box_of_cells(const RasterGrid& grid, const CellRectangle& cells) {
@@ -145,17 +192,17 @@ std::string ZoneTasks::answer(std::size_t task, Progress& progress) const {
   return writer.bytes();
 }
 
+void ZoneTasks::read_again_by(const AnswerAgain& answers) {
+  Zone layout = *zone_;
+  if (layout.request.foliage) layout.seasons.emplace();
+  zone_->quantities = std::make_shared<QuantitiesOfAnswers>(layout, list_, answers);
+}
+
 void ZoneTasks::add(std::size_t task, std::string_view answer) {
   if (zone_->bare.tip_count.empty()) prepare();
   Zone& whole = *zone_;
   const std::vector<Turbine> turbines = request_of(task).turbines;
-  Zone part;
-  if (whole.screened) part.screened.emplace();
-  if (whole.seasons) part.seasons.emplace();
-  if (whole.radar) part.radar.emplace();
-  ValueReader reader(answer);
-  exchange_zone(reader, part);
-  reader.expect_end();
+  const Zone part = zone_of_answer(whole, answer);
   const Copies copy(cells_of(list_.at(task)), whole.grid);
   copy(part.bare, whole.bare);
   if (whole.screened) copy(*part.screened, *whole.screened);
@@ -188,12 +235,8 @@ void ZoneTasks::prepare() {
 
 Zone ZoneTasks::take() {
   const std::size_t turbines = zone_->request.turbines.size();
-  const auto complete_shares = [&](Visibility& v) {
-    for (std::size_t i = 0; i < v.share.size(); ++i)
-      if (v.tip_count[i] != kCountOutside) v.share[i] = share_of_turbines(v.tip_count[i], turbines);
-  };
-  complete_shares(zone_->bare);
-  if (zone_->screened) complete_shares(*zone_->screened);
+  complete_shares(zone_->bare, turbines);
+  if (zone_->screened) complete_shares(*zone_->screened, turbines);
   complete_screen(*zone_);
   return std::move(*zone_);
 }

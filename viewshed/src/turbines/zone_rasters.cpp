@@ -23,7 +23,7 @@ namespace {
 /// A quantity that is a raster of floats.
 struct Quantity {
   const char* name;
-  std::vector<float> Visibility::*values;
+  ZoneQuantity values;
   const char* what;
   const char* unit;
   std::vector<double> limits;  ///< upper ends of its bands
@@ -153,10 +153,22 @@ void write_bits(const Zone& zone, const View& view, RasterFolder& folder) {
       view.seen.turbines, description, seen_style());
 }
 
-void write_quantities(const View& view, RasterFolder& folder) {
+/// Calls use(values) with the values of a quantity over one of the zone's surfaces.
+template <class Use>
+void with_values(const Zone& zone, const Visibility& seen, const Quantity& q, const Use& use) {
+  if (zone.quantities) {
+    use(zone.quantities->values(q.values, &seen != &zone.bare));
+  } else {
+    use(seen.*q.values);
+  }
+}
+
+void write_quantities(const Zone& zone, const View& view, RasterFolder& folder) {
   for (const Quantity& q : quantities())
-    folder.write(q.name + view.suffix, fmt::format("{}; NaN: {}{}", q.what, kNoValue, view.remark), view.seen.*q.values,
-                 with_nodata(kNaN), banded_style(limit_bands(q.limits, q.unit)));
+    with_values(zone, view.seen, q, [&](const std::vector<float>& values) {
+      folder.write(q.name + view.suffix, fmt::format("{}; NaN: {}{}", q.what, kNoValue, view.remark), values,
+                   with_nodata(kNaN), banded_style(limit_bands(q.limits, q.unit)));
+    });
 }
 
 /// Returns bare less screened. Where either has no value the difference has none: 65535 less 65535 must not become 0.
@@ -183,9 +195,13 @@ void write_differences(const Zone& zone, RasterFolder& folder) {
   for (const Quantity& q : quantities()) {
     // The difference of azimuths means nothing, nor does that of distances of which one may be missing.
     if (q.values == &Visibility::horizontal_from_deg || q.values == &Visibility::nearest_m) continue;
-    folder.write(fmt::format("{}-difference", q.name), what(q.what),
-                 difference(bare.*q.values, screened.*q.values, std::numeric_limits<float>::quiet_NaN()),
-                 with_nodata(kNaN), banded_style(limit_bands(q.limits, q.unit)));
+    with_values(zone, bare, q, [&](const std::vector<float>& of_bare) {
+      with_values(zone, screened, q, [&](const std::vector<float>& of_screened) {
+        folder.write(fmt::format("{}-difference", q.name), what(q.what),
+                     difference(of_bare, of_screened, std::numeric_limits<float>::quiet_NaN()), with_nodata(kNaN),
+                     banded_style(limit_bands(q.limits, q.unit)));
+      });
+    });
   }
 }
 
@@ -275,7 +291,7 @@ std::vector<ZoneFile> write_zone_rasters(const std::string& folder, const Zone& 
   for (const View& view : views) {
     write_counts(zone, view, files);
     write_bits(zone, view, files);
-    write_quantities(view, files);
+    write_quantities(zone, view, files);
   }
   if (zone.screened) write_differences(zone, files);
   if (zone.seasons) write_seasons(zone, files);

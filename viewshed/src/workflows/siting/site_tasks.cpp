@@ -163,7 +163,7 @@ class SiteTasks::Impl {
   const SiteSurvey survey_;
   std::vector<std::size_t> order_;  ///< neighbours are next to each other
   std::vector<Task> list_;
-  std::vector<double> heights_m_;  ///< of all options, as far as they were added
+  std::vector<double> heights_m_;  ///< one for each option, as far as they were added
   std::mutex mutex_;
   std::optional<SiteCoverage> coverage_;
 };
