@@ -121,9 +121,12 @@ class RayIndex : public testing::Test {
     for (int n = 0; n < 6; ++n) {
       const double azimuth = azimuth_of_ray(
           std::uniform_int_distribution<unsigned>(0, layout.sample.rays - 1)(*random_), layout.sample.rays);
-      const RayCourse course(ground.fan, azimuth, *ground.posts);
       const std::int64_t row = std::uniform_int_distribution<std::int64_t>(0, layout.grid.rows() - 1)(*random_);
-      RayWalk walk{.place = ground.posts->place(0, ground.among.row + row * ground.among.step)};
+      const std::int64_t post_row = ground.among.row + row * ground.among.step;
+      const RayCourse course(ground.fan, azimuth, *ground.posts,
+                             {ground.among.column, post_row,
+                              ground.among.column + (layout.grid.columns() - 1) * ground.among.step, post_row});
+      RayWalk walk{.place = ground.posts->place(0, post_row)};
       std::vector<Seen> lines;
       for (std::int64_t i = 0; i < std::min<std::int64_t>(layout.grid.columns(), PostRows::kTogether); ++i) {
         const auto height = ground.posts->ground(walk.place + i, ground.among.east, ground.among.south);
@@ -131,6 +134,7 @@ class RayIndex : public testing::Test {
         ASSERT_EQ(height.has_value(), height_on(tin, eye).has_value());
         lines.push_back(height ? by_lines(store, tin, request, eye, azimuth) : Seen{});
         const auto at = static_cast<std::size_t>(i);
+        walk.there[at] = height.has_value();
         walk.ground[at] = height.value_or(0);
         walk.eye[at] = walk.ground[at] + request.height / tin.grid.resolution;
         if (!height) continue;
@@ -138,7 +142,7 @@ class RayIndex : public testing::Test {
         seen += lines.back().seen, hidden += lines.back().on_ground - lines.back().seen;
       }
       for (const Instructions instructions : instructions_here()) {
-        walk_ray(course, *ground.posts, ground.posts->halves() == nullptr, instructions, walk);
+        walk_ray(course, *ground.posts, instructions, walk);
         for (std::size_t i = 0; i < lines.size(); ++i) {
           if (lines[i].looks == 0) continue;
           SCOPED_TRACE(testing::Message() << "observer " << i << " of row " << row << ", azimuth " << azimuth);
@@ -190,6 +194,41 @@ class RayIndex : public testing::Test {
   std::string path_ = directory_.file("t.itin");
   std::unique_ptr<std::mt19937> random_ = std::make_unique<std::mt19937>(test::seed());
 };
+
+/// What lies at one place from observers next to each other lies side by side, however far apart they stand.
+TEST_F(RayIndex, PostsLieSideBySide) {
+  import_posts(with_lakes(rough(100)), 150);
+  const Store store(path_);
+  NoProgress progress;
+  const auto reader =
+      LatticeReader::open(store, Window::all(), ThemeChoice::none(), LatticeReader::Heights::kAll, 100000, progress);
+  ASSERT_NE(reader, nullptr);
+  const LatticeTin& lattice = reader->lattice();
+  for (const int step : {1, 2, 3, 7, 64}) {
+    const PostBox box{-3, 5, 140, 155};
+    const std::int64_t first = 20;
+    const PostRows posts(lattice, box, first, step);
+    for (int n = 0; n < 2000; ++n) {
+      const auto any = [&](std::int64_t low, std::int64_t high) {
+        return std::uniform_int_distribution<std::int64_t>(low, high)(*random_);
+      };
+      const std::int64_t observer = any(0, 120 / step), column = any(box.west, box.east),
+                         row = any(box.north, box.south), observers_row = any(box.north, box.south);
+      const std::ptrdiff_t at =
+          posts.place(observer, observers_row) + posts.offset(column - (first + observer * step), row - observers_row);
+      const auto post = lattice.post_at(lattice.west + static_cast<double>(column) * lattice.spacing,
+                                        lattice.north - static_cast<double>(row) * lattice.spacing);
+      if (post) {
+        EXPECT_EQ(posts.heights()[at], *post);
+        EXPECT_GE(posts.highest({column, row, column, row}), *post);
+      }
+      const bool within = column >= 0 && row >= 0 && column < lattice.columns && row < lattice.rows;
+      EXPECT_EQ(posts.halves()[at], within ? lattice.halves(lattice.cell(static_cast<std::uint32_t>(column),
+                                                                         static_cast<std::uint32_t>(row)))
+                                           : 0);
+    }
+  }
+}
 
 TEST_F(RayIndex, LooksAreLinesOfSight) {
   const test::CardiffTerrain terrain;

@@ -213,6 +213,10 @@ TEST_F(VisibilityIndexTest, ThreadsAndNeighboursDoNotMatter) {
   EXPECT_EQ(index(request).share, one.share);
   request.area = Window::box({301000, 198500, 301500, 199000});
   EXPECT_EQ(index(request).share.at(0), one.share.at(0));
+  request.targets = 100;
+  const float by_targets = index(request).share.at(0);
+  request.area = Window::box({301000, 197000, 303000, 199000});
+  EXPECT_EQ(index(request).share.at(0), by_targets);
 }
 
 TEST_F(VisibilityIndexTest, BlocksMakeTheWhole) {
@@ -220,6 +224,10 @@ TEST_F(VisibilityIndexTest, BlocksMakeTheWhole) {
   IndexRequest request{.area = Window::box({300500, 196500, 303500, 199500}), .cell_size = 150, .radius = 700};
   for (const NoData rule : {NoData::kUnknown, NoData::kClear, NoData::kBlock}) {
     request.nodata = rule;
+    // By rays, and by targets at random over posts.
+    request.targets.reset();
+    expect_blocks_make_the_whole(request, {60000, 40000});
+    request.targets = 128;
     expect_blocks_make_the_whole(request, {40000, 22000});
   }
   // At a tolerance the surface is no lattice; nor is it where houses stand.
@@ -290,6 +298,9 @@ TEST_F(VisibilityIndexTest, EverythingIsSeenOnAPlaneAndNothingSaysSoForCertain) 
   const VisibilityIndex result = index(request);
   for (const float share : result.share) EXPECT_EQ(share, 1);
   for (const float error : result.standard_error) EXPECT_GT(error, 0);
+  EXPECT_GT(result.sample.rays, 0U);
+  request.targets = 50;
+  for (const float error : index(request).standard_error) EXPECT_GT(error, 0.01F);
 }
 
 TEST_F(VisibilityIndexTest, WrongCallsAreRefused) {

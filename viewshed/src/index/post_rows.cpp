@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <limits>
 #include <numeric>
 
 #include <itin/parallel.hpp>
@@ -10,6 +11,8 @@
 namespace itin::viewshed {
 
 namespace {
+
+constexpr std::int64_t kBlockOfPosts = 8;  ///< side of the blocks whose greatest heights are kept
 
 /// Tells whether a half of a cell holds the place (u, v) of it.
 bool half_holds(LatticeTin::Half half, double u, double v) {
@@ -40,6 +43,35 @@ PostRows::PostRows(const LatticeTin& lattice, const PostBox& box, std::int64_t f
   if (!whole(box)) halves_.resize(places);
   parallel_for(static_cast<std::size_t>(box.rows()),
                [&](std::size_t row) { copy_row(lattice, box.north + static_cast<std::int64_t>(row)); });
+  block_columns_ = (box.columns() + kBlockOfPosts - 1) / kBlockOfPosts;
+  const auto block_rows = static_cast<std::size_t>((box.rows() + kBlockOfPosts - 1) / kBlockOfPosts);
+  highest_.resize(static_cast<std::size_t>(block_columns_) * block_rows, std::numeric_limits<std::int32_t>::min());
+  parallel_for(block_rows, [&](std::size_t row) { find_highest(static_cast<std::int64_t>(row)); });
+}
+
+void PostRows::find_highest(std::int64_t block_row) {
+  const std::int64_t first = box_.north + block_row * kBlockOfPosts,
+                     last = std::min(first + kBlockOfPosts - 1, box_.south);
+  for (std::int64_t row = first; row <= last; ++row) {
+    const std::ptrdiff_t at_first = place(0, row);
+    for (std::int64_t column = box_.west; column <= box_.east; ++column) {
+      const std::int64_t block = block_row * block_columns_ + (column - box_.west) / kBlockOfPosts;
+      std::int32_t& highest = highest_[static_cast<std::size_t>(block)];
+      highest = std::max(highest, heights_[static_cast<std::size_t>(at_first + offset(column - first_, 0))]);
+    }
+  }
+}
+
+std::int32_t PostRows::highest(const PostBox& box) const {
+  ITIN_PRECONDITION(box.west >= box_.west && box.north >= box_.north && box.east <= box_.east &&
+                    box.south <= box_.south);
+  std::int32_t highest = std::numeric_limits<std::int32_t>::min();
+  for (std::int64_t row = (box.north - box_.north) / kBlockOfPosts; row <= (box.south - box_.north) / kBlockOfPosts;
+       ++row)
+    for (std::int64_t column = (box.west - box_.west) / kBlockOfPosts; column <= (box.east - box_.west) / kBlockOfPosts;
+         ++column)
+      highest = std::max(highest, highest_[static_cast<std::size_t>(row * block_columns_ + column)]);
+  return highest;
 }
 
 void PostRows::copy_row(const LatticeTin& lattice, std::int64_t row) {

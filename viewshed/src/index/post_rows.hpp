@@ -9,6 +9,7 @@
 // Columns and rows are the lattice's; they may lie beyond it, where there is no ground.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -22,6 +23,15 @@ namespace itin::viewshed {
 struct PostBox {
   std::int64_t west = 0, north = 0, east = -1, south = -1;
 
+  /// Grows by another box.
+  void extend(const PostBox& other) {
+    west = std::min(west, other.west), north = std::min(north, other.north);
+    east = std::max(east, other.east), south = std::max(south, other.south);
+  }
+  /// Returns all places that lie from a place of this box as places of the other lie from (0, 0).
+  PostBox around(const PostBox& other) const {
+    return {west + other.west, north + other.north, east + other.east, south + other.south};
+  }
   std::int64_t columns() const { return east - west + 1; }
   std::int64_t rows() const { return south - north + 1; }
   std::uint64_t count() const { return static_cast<std::uint64_t>(columns() * rows()); }
@@ -57,6 +67,8 @@ class PostRows {
   /// Returns the halves of each cell, as bits of LatticeTin::Half, at its north-western post; null where all are whole.
   const std::uint8_t* halves() const { return halves_.empty() ? nullptr : halves_.data(); }
   std::uint64_t triangle_count() const;
+  /// Returns a height, grid units, that no post of a box exceeds.
+  std::int32_t highest(const PostBox& box) const;
   /// Tells whether all cells between the posts of a box are whole.
   bool whole(const PostBox& box) const;
 
@@ -72,6 +84,7 @@ class PostRows {
     return columns >= 0 ? columns / step_ : -((step_ - 1 - columns) / step_);
   }
   void copy_row(const LatticeTin& lattice, std::int64_t row);
+  void find_highest(std::int64_t block_row);
 
   PostBox box_;
   std::int64_t first_, step_;
@@ -80,6 +93,8 @@ class PostRows {
   std::int64_t row_length_;
   std::vector<std::int32_t> heights_;
   std::vector<std::uint8_t> halves_;
+  std::int64_t block_columns_;
+  std::vector<std::int32_t> highest_;  ///< the greatest heights of square blocks of posts
 
   std::int64_t tile_columns_;
   std::vector<bool> whole_;  ///< one for each tile of the lattice

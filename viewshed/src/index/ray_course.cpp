@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <itin/precondition.hpp>
 
@@ -12,9 +11,13 @@ namespace {
 
 /// Edges that are crossed closer to each other than this, in cells, are crossed at one place: the post where they meet.
 constexpr double kOnePlace = 1e-10;
+constexpr std::size_t kStepsOfBlock = 16;
 
-/// Parallel edges of a lattice, one cell apart, as a ray crosses them one after the other. Its `at` is the distance of
-/// the next, in cells along the ray.
+std::int64_t floored(double value) {
+  return static_cast<std::int64_t>(std::floor(value));
+}
+
+/// Parallel edges of a lattice, one cell apart, as a ray crosses them one after the other.
 class ParallelEdges {
  public:
   /// The ray begins at `from` and gains `slope` with each cell of its length; edges are at whole numbers.
@@ -23,6 +26,7 @@ class ParallelEdges {
     measure();
   }
 
+  /// Returns the distance of the next edge along the ray, cells.
   double at() const { return at_; }
   std::int64_t number() const { return static_cast<std::int64_t>(number_); }
   void advance() {
@@ -37,62 +41,79 @@ class ParallelEdges {
   double number_ = 0, at_ = 0;
 };
 
-/// An edge and where it is crossed.
-struct CrossedEdge {
-  std::int64_t column = 0, row = 0;        ///< its first end
-  std::int64_t to_column = 0, to_row = 0;  ///< its second end
-  double weight = 0;
+/// All edges that a ray crosses, nearest first. Columns count eastwards and rows southwards; the diagonals of cells run
+/// from north-west to south-east.
+class CrossedEdges {
+ public:
+  struct Edge {
+    double at = 0;  ///< along the ray, cells
+    std::int64_t column = 0, row = 0;
+    std::int64_t to_column = 0, to_row = 0;
+    double weight = 0;  ///< how near to the second end
+  };
+
+  CrossedEdges(const RayFan& fan, double azimuth)
+      : from_{fan.east, fan.south},
+        u_(std::sin(azimuth)),
+        v_(-std::cos(azimuth)),
+        columns_(from_.x, u_),
+        rows_(from_.y, v_),
+        diagonals_(from_.y - from_.x, v_ - u_) {
+    ITIN_PRECONDITION(u_ != 0 && v_ != 0 && u_ != v_);
+  }
+
+  /// Returns the place at a distance, as column and row.
+  Point2 place(double at) const { return {from_.x + at * u_, from_.y + at * v_}; }
+
+  Edge next() {
+    const double at = std::min({columns_.at(), rows_.at(), diagonals_.at()});
+    const auto [x, y] = place(at);
+    const std::int64_t column = floored(x), row = floored(y);
+    const double beyond_column = x - static_cast<double>(column), beyond_row = y - static_cast<double>(row);
+    if (columns_.at() == at) {
+      const std::int64_t number = columns_.number();
+      columns_.advance();
+      return {at, number, row, number, row + 1, beyond_row};
+    }
+    if (rows_.at() == at) {
+      const std::int64_t number = rows_.number();
+      rows_.advance();
+      return {at, column, number, column + 1, number, beyond_column};
+    }
+    const std::int64_t on_diagonal = column + diagonals_.number();
+    diagonals_.advance();
+    return {at, column, on_diagonal, column + 1, on_diagonal + 1, beyond_column};
+  }
+
+ private:
+  Point2 from_;
+  double u_, v_;
+  ParallelEdges columns_, rows_, diagonals_;
 };
 
 }  // namespace
 
-RayCourse::RayCourse(const RayFan& fan, double azimuth, const PostRows& posts) : fan_(fan) {
-  // Columns count eastwards and rows southwards; the diagonals of cells run from north-west to south-east.
-  const double u = std::sin(azimuth), v = -std::cos(azimuth);
-  ITIN_PRECONDITION(u != 0 && v != 0 && u != v);
-  ParallelEdges columns(fan.east, u), rows(fan.south, v), diagonals(fan.south - fan.east, v - u);
-  const auto x = [&](double at) { return fan.east + at * u; };
-  const auto y = [&](double at) { return fan.south + at * v; };
-  const auto floored = [](double value) { return static_cast<std::int64_t>(std::floor(value)); };
-  const auto cross_next = [&](double at) {
-    CrossedEdge edge;
-    if (columns.at() == at) {
-      edge.column = edge.to_column = columns.number(), edge.row = floored(y(at)), edge.to_row = edge.row + 1;
-      edge.weight = y(at) - static_cast<double>(edge.row);
-      columns.advance();
-    } else if (rows.at() == at) {
-      edge.row = edge.to_row = rows.number(), edge.column = floored(x(at)), edge.to_column = edge.column + 1;
-      edge.weight = x(at) - static_cast<double>(edge.column);
-      rows.advance();
-    } else {
-      edge.column = floored(x(at)), edge.row = edge.column + diagonals.number();
-      edge.to_column = edge.column + 1, edge.to_row = edge.row + 1;
-      edge.weight = x(at) - static_cast<double>(edge.column);
-      diagonals.advance();
-    }
-    return edge;
-  };
-  const double width = fan.ring_width();
-  const auto look_at = [&](std::uint32_t ring) { return (ring + 0.5) * width; };
+RayCourse::RayCourse(const RayFan& fan, double azimuth, const PostRows& posts, const PostBox& observers) : fan_(fan) {
+  CrossedEdges edges(fan, azimuth);
+  const auto look_at = [&](std::uint32_t ring) { return (ring + 0.5) * fan.ring_width(); };
   double before = 0;  // cells
-  box_ = {0, 0, 1, 1};
+  PostBox block{0, 0, 1, 1};
   for (std::uint32_t ring = 0; ring < fan.rings && look_at(ring) <= fan.reach;) {
-    const double at = std::min({columns.at(), rows.at(), diagonals.at()});
-    const CrossedEdge edge = cross_next(at);
-    if (at - before < kOnePlace) continue;
-    const double middle = (before + at) / 2;
-    const std::int64_t column = floored(x(middle)), row = floored(y(middle));
+    const CrossedEdges::Edge edge = edges.next();
+    if (edge.at - before < kOnePlace) continue;
+    const Point2 middle = edges.place((before + edge.at) / 2), from = edges.place(before), to = edges.place(edge.at);
+    const std::int64_t column = floored(middle.x), row = floored(middle.y);
+    const auto west = static_cast<double>(column), north = static_cast<double>(row);
     RayStep step{};
     step.first = posts.offset(edge.column, edge.row), step.second = posts.offset(edge.to_column, edge.to_row);
     step.cell = posts.offset(column, row);
     step.weight = edge.weight;
-    step.distance = at * fan.spacing, step.per_distance = 1 / step.distance;
+    step.distance = edge.at * fan.spacing, step.per_distance = 1 / step.distance;
     step.drop = fan.drop * step.distance * step.distance;
     step.before = before * fan.spacing;
     step.drop_before = fan.drop * step.before * step.before;
-    step.ratio = before / (at - before);
-    step.half = y(middle) - static_cast<double>(row) > x(middle) - static_cast<double>(column) ? LatticeTin::kSouthWest
-                                                                                               : LatticeTin::kNorthEast;
+    step.ratio = before / (edge.at - before);
+    step.half = middle.y - north > middle.x - west ? LatticeTin::kSouthWest : LatticeTin::kNorthEast;
     for (; ring < fan.rings && look_at(ring) <= fan.reach && look_at(ring) <= step.distance; ++ring, ++step.looks) {
       const double distance = look_at(ring);
       looks_.push_back({distance, 1 / distance, fan.drop * distance * distance,
@@ -100,16 +121,29 @@ RayCourse::RayCourse(const RayFan& fan, double azimuth, const PostRows& posts) :
       weight_ += looks_.back().weight;
     }
     steps_.push_back(step);
-    const auto in_cell = [&](double place) {
-      return Point2{x(place) - static_cast<double>(column), y(place) - static_cast<double>(row)};
-    };
-    const Point2 from = in_cell(before), to = in_cell(at);
-    crossings_.push_back({column, row, from.x, from.y, to.x, to.y});
-    box_.west = std::min({box_.west, edge.column, column}),
-    box_.east = std::max({box_.east, edge.to_column, column + 1});
-    box_.north = std::min({box_.north, edge.row, row}), box_.south = std::max({box_.south, edge.to_row, row + 1});
-    before = at;
+    crossings_.push_back({column, row, from.x - west, from.y - north, to.x - west, to.y - north});
+    block.extend({std::min(edge.column, column), std::min(edge.row, row), std::max(edge.to_column, column + 1),
+                  std::max(edge.to_row, row + 1)});
+    before = edge.at;
+    if (steps_.size() % kStepsOfBlock != 0) continue;
+    end_block(posts, observers.around(block));
+    block = {edge.column, edge.row, edge.to_column, edge.to_row};
   }
+  end_block(posts, observers.around(block));
+}
+
+/// Makes a block of the steps that are in none yet, which meet these posts.
+void RayCourse::end_block(const PostRows& posts, const PostBox& met) {
+  const std::size_t first = blocks_.empty() ? 0 : blocks_.back().last_step;
+  if (first == steps_.size()) return;
+  RayBlock block{.last_step = steps_.size()};
+  for (std::size_t s = first; s < steps_.size(); ++s) block.looks += steps_[s].looks;
+  const double near = steps_[first].before, far = steps_.back().distance;
+  block.nearest = 1 / near, block.farthest = 1 / far;
+  block.least_drop = fan_.drop * (fan_.drop > 0 ? near : far);
+  block.ceiling = posts.highest(met);
+  blocks_.push_back(block);
+  whole_ = whole_ && posts.whole(met);
 }
 
 }  // namespace itin::viewshed

@@ -3,8 +3,8 @@
 // place of its cell of posts.
 //
 //   RayFan fan{.spacing = ..., .radius = ..., .rings = 400, ...};
-//   const RayCourse course(fan, azimuth, posts);
-//   walk_rays(course, posts, places, observers);
+//   const RayCourse course(fan, azimuth, posts, observers);
+//   walk_ray(course, posts, instructions, walk);
 //
 // The disc about an observer is cut into rings of equal width, and a ray looks at the ground in the middle of each. A
 // look counts as much as its ring has area: 1, 3, 5, ... from the innermost on.
@@ -59,18 +59,27 @@ struct RayLook {
   double weight;  ///< a whole number
 };
 
-/// The cell before an edge, counted from the observer's post, and where the ray crosses it: from (u, v) to
-/// (next_u, next_v), in cells east and south of its north-western post.
+/// The cell before an edge, counted from the observer's post, and where the ray crosses it: from (u, v) to (next_u,
+/// next_v), in cells east and south of its north-western post.
 struct RayCrossing {
   std::int64_t column = 0, row = 0;
   double u = 0, v = 0, next_u = 0, next_v = 0;
 };
 
+/// Steps one after the other, over which no ground is higher than some height.
+struct RayBlock {
+  std::size_t last_step = 0;  ///< the first step beyond it
+  std::uint32_t looks = 0;
+  double nearest = 0, farthest = 0;  ///< 1 / distance, at both ends
+  double least_drop = 0;             ///< the least drop in it, divided by its distance
+  double ceiling = 0;                ///< no post that it meets is higher, from whichever observer; grid units
+};
+
 class RayCourse {
  public:
-  /// The azimuth is clockwise from grid north, radians. No multiple of a right angle or half of one will do, for rays
-  /// must not run along edges.
-  RayCourse(const RayFan& fan, double azimuth, const PostRows& posts);
+  /// The course from each of `observers`, which are places of the posts. The azimuth is clockwise from grid north,
+  /// radians. No multiple of a right angle or half of one will do, for rays must not run along edges.
+  RayCourse(const RayFan& fan, double azimuth, const PostRows& posts, const PostBox& observers);
 
   const RayFan& fan() const { return fan_; }
   const std::vector<RayStep>& steps() const { return steps_; }
@@ -80,16 +89,21 @@ class RayCourse {
   double weight() const { return weight_; }
   /// Returns the cell that the course crosses in a step.
   const RayCrossing& crossing(std::size_t step) const { return crossings_[step]; }
-  /// Returns all posts of the course, as columns and rows from the observer's post.
-  const PostBox& box() const { return box_; }
+  /// Returns all steps in blocks.
+  const std::vector<RayBlock>& blocks() const { return blocks_; }
+  /// Tells whether all cells that it crosses are whole, from whichever observer.
+  bool whole() const { return whole_; }
 
  private:
+  void end_block(const PostRows& posts, const PostBox& met);
+
   RayFan fan_;
   std::vector<RayStep> steps_;
   std::vector<RayLook> looks_;
   double weight_ = 0;
   std::vector<RayCrossing> crossings_;
-  PostBox box_;
+  std::vector<RayBlock> blocks_;
+  bool whole_ = true;
 };
 
 }  // namespace itin::viewshed

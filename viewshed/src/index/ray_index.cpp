@@ -118,6 +118,12 @@ class RayIndexWork {
   std::int64_t column_of(std::int64_t cell_column) const { return among_.column + cell_column * among_.step; }
   std::int64_t row_of(std::int64_t cell_row) const { return among_.row + cell_row * among_.step; }
 
+  /// Returns the posts at the observers of some cells, or to the north-west of them.
+  PostBox posts_of(const CellRectangle& cells) const {
+    return {column_of(cells.column), row_of(cells.row), column_of(cells.column + cells.columns - 1),
+            row_of(cells.row + cells.rows - 1)};
+  }
+
   /// Returns how far the rays from some cells may meet ground, grid units.
   double reach_of(const CellRectangle& cells) const {
     const LatticeTin& posts = lattice();
@@ -137,8 +143,7 @@ class RayIndexWork {
   PostBox posts_under(const CellRectangle& cells) const {
     // A ray ends at an edge of the cell of posts in which it looks last.
     const auto reach = static_cast<std::int64_t>(std::ceil(reach_of(cells) / lattice().spacing)) + 2;
-    return {column_of(cells.column) - reach, row_of(cells.row) - reach,
-            column_of(cells.column + cells.columns - 1) + reach, row_of(cells.row + cells.rows - 1) + reach};
+    return posts_of(cells).around({-reach, -reach, reach, reach});
   }
 
   void look(const CellRectangle& cells, SegmentProgress& progress) {
@@ -187,12 +192,8 @@ class RayIndexWork {
 
   /// Walks one ray from all observers of a tile.
   void walk(unsigned ray, RayTile& tile) const {
-    const RayCourse course(tile.fan, azimuth_of_ray(ray, layout_.sample.rays), tile.posts);
     const CellRectangle& cells = tile.cells;
-    const PostBox& box = course.box();
-    const bool whole = tile.posts.whole({column_of(cells.column) + box.west, row_of(cells.row) + box.north,
-                                         column_of(cells.column + cells.columns - 1) + box.east,
-                                         row_of(cells.row + cells.rows - 1) + box.south});
+    const RayCourse course(tile.fan, azimuth_of_ray(ray, layout_.sample.rays), tile.posts, posts_of(cells));
     for (std::int64_t row = 0; row < cells.rows; ++row) {
       for (std::int64_t column = 0; column < cells.columns; column += kTogether) {
         const auto first = static_cast<std::size_t>(row * cells.columns + column),
@@ -200,10 +201,11 @@ class RayIndexWork {
         RayWalk walk{.place = place_of(tile, {cells.column + column, cells.row + row})};
         const std::span<RayObserver> observers = std::span(tile.observers).subspan(first, count);
         for (std::size_t i = 0; i < count; ++i) {
+          walk.there[i] = observers[i].ground.has_value();
           walk.ground[i] = observers[i].ground.value_or(0);
           walk.eye[i] = walk.ground[i] + request_.height / lattice().grid.resolution;
         }
-        walk_ray(course, tile.posts, whole, instructions_, walk);
+        walk_ray(course, tile.posts, instructions_, walk);
         add(walk, ray, observers, tile.counts);
       }
     }

@@ -1,9 +1,7 @@
 #include "index/ray_walk.hpp"
 
-#include <bit>
+#include <algorithm>
 #include <cstring>
-
-#include <itin/precondition.hpp>
 
 #include "index/ray_stretch.hpp"
 #include "line/infinity.hpp"
@@ -12,11 +10,20 @@ namespace itin::viewshed {
 
 namespace {
 
+/// Slopes are computed to far less than this, which is a fortieth of a millimetre at 25 km.
+constexpr double kSlopeRounding = 1e-9;
+
 /// The states of all observers of a walk, while single ones of them are looked after.
 struct RayStates {
   alignas(64) OfObservers<double> top, looks, on_ground, seen, beyond;
   alignas(64) OfObservers<double> from, to;           ///< heights of the ground at the edges
   alignas(64) OfObservers<std::int64_t> behind, odd;  ///< all bits, or none
+
+  /// No slope is greater than the first top of places where nobody stands.
+  explicit RayStates(const RayWalk& walk) {
+    std::transform(walk.there.begin(), walk.there.end(), top.begin(),
+                   [](bool there) { return there ? -kInfinity : kInfinity; });
+  }
 };
 
 /// Lets the observers pass a stretch that are odd, of `count` from number `first` on.
@@ -76,17 +83,16 @@ std::span<const Instructions> instructions_here() {
   return std::span(kAll).first(count);
 }
 
-void walk_ray(const RayCourse& course, const PostRows& posts, bool whole, Instructions instructions, RayWalk& walk) {
-  ITIN_PRECONDITION(whole || posts.halves() != nullptr);
+void walk_ray(const RayCourse& course, const PostRows& posts, Instructions instructions, RayWalk& walk) {
   switch (instructions) {
 #ifdef __x86_64__
     case Instructions::kAvx512:
-      return avx512::walk_all(course, posts, whole, walk);
+      return avx512::walk_all(course, posts, walk);
     case Instructions::kAvx2:
-      return avx2::walk_all(course, posts, whole, walk);
+      return avx2::walk_all(course, posts, walk);
 #endif
     default:
-      return baseline::walk_all(course, posts, whole, walk);
+      return baseline::walk_all(course, posts, walk);
   }
 }
 

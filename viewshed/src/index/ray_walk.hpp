@@ -1,7 +1,7 @@
 // Walks a ray from the observers of a row, all at once: what each sees of the ground along it.
 //
-//   RayWalk walk{.place = posts.place(observer, row), .ground = ..., .eye = ...};
-//   walk_ray(course, posts, true, instructions_here().back(), walk);
+//   RayWalk walk{.place = posts.place(observer, row), .there = ..., .ground = ..., .eye = ...};
+//   walk_ray(course, posts, instructions_here().back(), walk);
 //   walk.seen[0];                  // how much the first of the observers sees, as the looks of the course count
 //
 // A look is decided as SightLine decides the line from the eye to it: it is hidden where the ground before it rises
@@ -32,6 +32,7 @@ using OfObservers = std::array<T, PostRows::kTogether>;
 /// Observers of a row, next to each other, and what they see along one ray. Heights are in grid units.
 struct RayWalk {
   std::ptrdiff_t place = 0;                     ///< PostRows::place() of the first
+  OfObservers<bool> there{};                    ///< whether somebody stands there; what others see means nothing
   alignas(64) OfObservers<double> ground{};     ///< height of the ground under each
   alignas(64) OfObservers<double> eye{};        ///< height of the eye of each
   alignas(64) OfObservers<double> looks{};      ///< how many looks fall on ground
@@ -40,7 +41,7 @@ struct RayWalk {
   alignas(64) OfObservers<double> beyond{};     ///< what those count that ground without data alone could hide
 };
 
-/// Walks the course from all observers. `whole`: all cells that it crosses are whole, from whichever of them.
-void walk_ray(const RayCourse& course, const PostRows& posts, bool whole, Instructions instructions, RayWalk& walk);
+/// Walks the course from all observers, who must be among those it was made for.
+void walk_ray(const RayCourse& course, const PostRows& posts, Instructions instructions, RayWalk& walk);
 
 }  // namespace itin::viewshed
