@@ -13,6 +13,7 @@ import {
   settled,
   stillPicture,
   text,
+  until,
   MIDDLE,
 } from "./planner.mjs";
 import { itin, keepPicture, openPage, world } from "./served_map.mjs";
