@@ -13,7 +13,8 @@ const { areaOf, isMoved, moveSite, polygonText, putBack, sitesOf } = await modul
 const { addTurbine, commonSize, removeTurbine, resizeTurbines, rotorOf, takeLayout } = await module("state/turbines");
 const { cellsIn, encloses, servedOf, MOST_CELLS_SERVED } = await module("state/served");
 const { TIPS, HUBS, wantedOf } = await module("seen/viewers");
-const { placesIn, turbineTable } = await module("plan/tables");
+const { placesIn, rowsIn, turbineTable } = await module("plan/tables");
+const { buildingNear, buildingsOf } = await module("state/premises");
 const { jobOptions } = await module("plan/job_options");
 const { extentFor, toleranceFor } = await module("relief/window");
 const { middleSeen } = await module("seen/middle_seen");
@@ -23,6 +24,26 @@ const INFO = {
   data_spacing_m: 50,
   tiles: { themes: ["buildings"] },
 };
+
+test("buildings of a survey have how they are served, and are found near the cursor", () => {
+  const head = "theme,name,id,service,verdict,mast,on,x,y,height_m,blocked_by,blocking_feature,blocked_by_itself";
+  const rows = rowsIn(
+    `${head}\nhouses,"No. 1, a",1,wall,served,A,wall,10,20,3.000,,,\nhouses,2,2,not served,hidden,A,roof,40,20,5,terrain,,no\n` +
+      "houses,3,3,not served,hidden,A,wall,70,20,3,houses,feature 2,no\nhouses,4,4,out of reach,,,,,,,,,\n",
+  );
+  const buildings = buildingsOf(rows);
+  assert.deepEqual(
+    buildings.map(({ name, how }) => [name, how]),
+    [
+      ["houses, No. 1, a", "by A, from 3 m up"],
+      ["houses, 2", "hidden by the ground"],
+      ["houses, 3", "hidden by houses, feature 2"],
+    ],
+  );
+  assert.equal(buildingNear(buildings, [42, 21], 5)?.name, "houses, 2");
+  assert.equal(buildingNear(buildings, [42, 28], 5), null);
+  assert.equal(buildingNear([], [0, 0], 5), null);
+});
 
 test("counts have bands of equal width, and none seen is no value", () => {
   const few = countMode(3, "blade tip");

@@ -181,7 +181,7 @@ test("a pixel has the share of its cells that a mast sees", () => {
         undecided += code === 2;
         cut += code === 3;
       }
-      const opacity = (255 * (0.55 * seen + 0.6 * undecided + 0.55 * 0.45 * cut)) / 9;
+      const opacity = (255 * (0.55 * seen + 0.7 * undecided + 0.55 * 0.45 * cut)) / 9;
       assert(Math.abs(image.data[4 * (10 * y + x) + 3] - opacity) < 1, `pixel ${x},${y}`);
     }
   }

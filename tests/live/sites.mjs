@@ -248,12 +248,19 @@ test("premises are surveyed from the masts on the map", async () => {
   );
   assert.ok((await text(page, "#premises-sum")).startsWith(`${premises.served} of ${premises.all} buildings served`));
   assert.match(await text(page, "#premises-run .run-files"), /premises\.csv/);
+  await until(async () => /building served on a wall/.test(await text(page, "#legend-list")), "buildings are drawn");
+  const stale = () => page.$eval("#premises-run", (box) => /Out of date/.test(box.innerText));
+  assert.equal(await stale(), false);
   assert.match(
     await text(page, "#premises-run .run-warnings"),
     /5 buildings not counted: the import of theme 'buildings'/,
   );
   await keepPicture(page, "premises");
   assert.deepEqual(await axeFindings(page), []);
+  await setField(page, ".mast.selected .field-height input", "5");
+  await until(stale, "the survey is out of date");
+  await setField(page, ".mast.selected .field-height input", h);
+  await until(async () => !(await stale()), "it is of what would be asked again");
   await closed(page);
 });
 

@@ -14,6 +14,7 @@ import { LineLayer } from "./map/line_layer.js";
 import { makeMap, projectionOf } from "./map/map.js";
 import { takeClicks } from "./map/map_clicks.js";
 import { makeReliefLayer } from "./map/relief_layer.js";
+import { PremisesLayer } from "./map/premises_layer.js";
 import { SearchLayer } from "./map/search_layer.js";
 import { makeMastMarkers, makeSiteMarkers, makeTurbineMarkers } from "./map/task_markers.js";
 import { makeViewpointMarker } from "./map/viewpoint_marker.js";
@@ -96,6 +97,7 @@ async function start() {
   map.addLayer(verdicts);
   drawThemes(map, info, scene);
   map.addLayer(new SearchLayer(scene));
+  map.addLayer(new PremisesLayer(scene));
   map.addLayer(lines);
   views.onChange((come) => verdicts.show(shownOf(scene, views), come));
   scene.on(["show", "selected", "task", "part", "plan"], showVerdicts);

@@ -96,7 +96,9 @@ MapBase picture_base(const std::string& basemap, const RasterGrid& pixels, const
 }  // namespace
 
 MapBase plain_base(const Relief& ground) {
-  return {shaded(ground), {}, {}, "No terrain data"};
+  const bool has_holes =
+      std::any_of(ground.shades.begin(), ground.shades.end(), [](double shade) { return std::isnan(shade); });
+  return {shaded(ground), {}, {}, has_holes ? "No terrain data" : ""};
 }
 
 MapBase map_base(const Store& store, const Box& frame, double scale, const std::string& basemap, Progress& progress) {

@@ -13,6 +13,7 @@ import {
   meanColour,
   rampColour,
 } from "../seen/palette.js";
+import { SERVICES } from "../state/premises.js";
 import { SLOPE_COLOURS, SLOPE_LIMITS } from "../map/shade.js";
 import { sourcesOf } from "../seen/shown.js";
 import { tally } from "../seen/tally.js";
@@ -45,7 +46,7 @@ export function makeLegend(scene, views) {
   };
   element("slope-list").replaceChildren(...slopeEntries().map(entryElement));
   views.onChange(draw);
-  scene.on(["show", "selected", "layers", "task", "part", "plan"], draw);
+  scene.on(["show", "selected", "layers", "task", "part", "plan", "premises"], draw);
 }
 
 /** @returns {Entry[]} */
@@ -92,11 +93,18 @@ function verdictEntries(scene, sources) {
   if (options.frequency || holds(sources, CUT)) {
     entries.push([hueCss(sources.at(0)?.hue ?? 0), "paler: Fresnel zone cut", 0.3]);
   }
+  if (scene.state.task === "premises" && scene.state.premises) entries.push(...premisesEntries(scene.state.premises));
   if (holds(sources, UNDECIDED)) {
     entries.push([cssColour(UNDECIDED_COLOUR), "undecided, behind ground without data", UNDECIDED_OPACITY]);
   }
   return entries;
 }
+
+/** What dots on buildings mean. @param {import("../state/premises.js").Building[]} buildings @returns {Entry[]} */
+const premisesEntries = (buildings) =>
+  SERVICES.filter(({ service }) => buildings.some((building) => building.service === service)).map(
+    ({ colour, text }) => [colour, `building ${text}`, 1],
+  );
 
 /** Whether any mast has a cell of this verdict. @param {Source[]} sources @param {number} verdict */
 const holds = (sources, verdict) => sources.some(({ cells }) => cells.verdicts & (1 << verdict));

@@ -6,6 +6,7 @@ import { azimuthsText, degreesText, distanceText, metresText, numberText, placeT
 import { CUT, NEAREST, VERDICT, VISIBLE } from "../seen/seen_cells.js";
 import { hueCss } from "../seen/palette.js";
 import { askPlace } from "../server/api.js";
+import { SERVICES, buildingNear } from "../state/premises.js";
 import { letterOf } from "../state/mast_letter.js";
 import { withUnit } from "../seen/values.js";
 import { HUBS, TIPS, modeOf, viewerOf, viewersOf } from "../seen/viewers.js";
@@ -14,6 +15,7 @@ import { HUBS, TIPS, modeOf, viewerOf, viewersOf } from "../seen/viewers.js";
 /** @typedef {import("../seen/live_views.js").LiveViews} LiveViews */
 /** @typedef {import("../server/live_connection.js").Message} Message */
 
+const NEAR_PIXELS = 8; // between the cursor and a dot that it means
 const BESIDE = 18; // pixels between the pointer and the readout
 const NEVER_SENT = -1;
 const LONG = 20; // letters: where a CRS has no code, its whole text stands in its place
@@ -38,6 +40,7 @@ export class Readout {
     this.scene = scene;
     this.views = views;
     this.connection = connection;
+    this.map = map;
     this.#box.append(this.#verdict, this.#masts, this.#facts);
     map.on("pointermove", ({ coordinate, pixel, dragging }) => this.#moved(dragging ? null : coordinate, pixel));
     // Markers are above the viewport: to enter one leaves the map.
@@ -130,7 +133,18 @@ export class Readout {
     const others = viewersOf(this.scene.state).filter((other) => other.id !== mast.id);
     this.#masts.replaceChildren(...others.map((other) => this.#chip(other, place)));
     this.#masts.hidden = others.length === 0;
-    this.#tell(`${mast.name}: ${verdictOf(probe)}`, mast.hue, factsOf(probe, place, this.#valueAt(place)));
+    const facts = factsOf(probe, place, this.#valueAt(place));
+    this.#tell(`${mast.name}: ${verdictOf(probe)}`, mast.hue, [...this.#buildingAt(place), ...facts]);
+  }
+
+  /** How the building of a dot under the cursor was served. @param {number[]} place @returns {[string, string][]} */
+  #buildingAt(place) {
+    const { task, premises } = this.scene.state;
+    const within = NEAR_PIXELS * (this.map.getView().getResolution() ?? 1);
+    const building = task === "premises" && premises ? buildingNear(premises, place, within) : null;
+    if (!building) return [];
+    const text = SERVICES.find(({ service }) => service === building.service)?.text ?? building.service;
+    return [[building.name, [text, building.how].filter(Boolean).join(", ")]];
   }
 
   /** How many turbines are seen. @param {number[]} place */

@@ -4,7 +4,8 @@ import { element } from "../panel/elements.js";
 import { countedText, numberText, shareText } from "../panel/words.js";
 import { jobOptions } from "./job_options.js";
 import { JobRun } from "./job_run.js";
-import { mastTable } from "./tables.js";
+import { buildingsOf } from "../state/premises.js";
+import { mastTable, rowsIn } from "./tables.js";
 
 /** @typedef {import("../state/scene.js").Scene} Scene */
 
@@ -15,12 +16,16 @@ export function makePremisesSurvey(scene, jobs) {
   const run = new JobRun(element("premises-run"), jobs, "Surveying the buildings");
   button.addEventListener("click", async () => {
     sum.textContent = "";
+    scene.change({ premises: null });
     const job = await run.run(async () => {
       const { name } = await jobs.send("masts.csv", mastTable(scene.state.masts));
       const options = { ...jobOptions("premises", scene.state.options), masts: name, output: "premises" };
       return { verb: "premises", options, uploads: [name] };
     });
-    if (job) sum.textContent = sumText(job.document.premises);
+    if (!job) return;
+    sum.textContent = sumText(job.document.premises);
+    const table = job.files.find(({ name }) => name.endsWith("premises.csv"));
+    if (table) scene.change({ premises: buildingsOf(rowsIn(await (await fetch(table.url)).text())) });
   });
   run.follow(scene, ["masts", "options"], () => [
     mastsAsked(scene.state.masts),

@@ -27,10 +27,12 @@ export const mastTable = (masts) =>
 const cellsOf = (line) =>
   [...line.matchAll(/("(?:[^"]|"")*"|[^,]*)(?:,|$)/g)].map(([, cell]) => cell.replace(/^"|"$/g, ""));
 
-/** The places in a table that the program wrote. @param {string} text @returns {{x: number, y: number}[]} */
-export function placesIn(text) {
+/** The rows of a table that the program wrote, by the names of its columns. @param {string} text
+ * @returns {Record<string, string>[]} */
+export function rowsIn(text) {
   const [head, ...lines] = text.trim().split(/\r?\n/).map(cellsOf);
-  const x = head.indexOf("x");
-  const y = head.indexOf("y");
-  return lines.map((cells) => ({ x: Number(cells[x]), y: Number(cells[y]) }));
+  return lines.map((cells) => Object.fromEntries(head.map((name, i) => [name, cells[i]])));
 }
+
+/** The places in such a table. @param {string} text @returns {{x: number, y: number}[]} */
+export const placesIn = (text) => rowsIn(text).map(({ x, y }) => ({ x: Number(x), y: Number(y) }));

@@ -36,5 +36,6 @@ export function firstState(info) {
     served: { kind: "reach" },
     drawing: "search",
     plan: null,
+    premises: null,
   };
 }

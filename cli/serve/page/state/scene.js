@@ -27,6 +27,7 @@
  * @property {import("./served.js").Served} served       What sites are to serve.
  * @property {"search" | "served"} drawing  Of which of these two an area is drawn.
  * @property {import("./plan.js").Plan | null} plan      The sites that were chosen.
+ * @property {import("./premises.js").Building[] | null} premises  The buildings that were surveyed last.
  */
 
 export const MOST_MASTS = 8;
