@@ -2,13 +2,14 @@
 # How much is seen from everywhere, by rays: 4 million posts 50 m apart, a square of 100 km in mid Wales.
 # Prints how far shares are off at places 20 km within, and how many of them the stated error covers; what the index of
 # the whole square costs, with an observer at each post; and what a look takes with each set of instructions, which have
-# to give the same bytes. The truth of a place is a viewshed of cells of 25 m, which the sweep decides.
-#   benchmarks/peers/index.sh [PLACES]          # 100 places, if it is not told otherwise
+# to give the same bytes. The truth of a place is a viewshed of cells of 13 m, which the sweep decides.
+# Cells of 10 or 25 m would not do: many of their centres lie on edges between posts, which are seen more often.
+#   benchmarks/peers/index.sh [PLACES]          # 40 places, if it is not told otherwise
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/measure.sh"
 require_tools gdal_translate gdallocationinfo jq
 
-readonly places=${1:-100} folder=$work/index
+readonly places=${1:-40} folder=$work/index
 mkdir -p "$folder"
 "$root/benchmarks/peers/terrain.py" wales
 cd "$folder"
@@ -24,7 +25,7 @@ awk -v n="$places" 'BEGIN { srand(1994)
 truth() {  # truth RADIUS: what is seen from each place, as shares, in truth-RADIUS.txt, which is kept
   local x y
   [ "$(wc -l <"truth-$1.txt" 2>/dev/null)" = "$places" ] || while read -r x y; do
-    "$itin" viewshed mid.itin --observer "$x,$y,2" --target-height 0 --radius "$1" --cell 25 -o seen.tif --overwrite \
+    "$itin" viewshed mid.itin --observer "$x,$y,2" --target-height 0 --radius "$1" --cell 13 -o seen.tif --overwrite \
       --quiet --json | jq -r '.cells | .visible / (.visible + .hidden)'
   done <places.txt >"truth-$1.txt"
 }

@@ -179,9 +179,8 @@ class VisibilityVerb final : public Verb {
     if (!sheet_.file().empty()) document["outputs"].push_back(sheet_.file());
     document["statistics"] = viewshed::statistics_document({index.retrieval, index.triangles, index.lines});
     result.text = fmt::format(
-        "{}: {}\non average, one of {} sees {:.2f} % (standard error {:.2f}) of the ground within {:g} m\n{}{}{}{}, "
-        "{}; "
-        "{}\n",
+        "{}: {}\non average, one of {} sees {:.2f} % (standard error {:.2g}) of the ground within {:g} m\n{}{}{}"
+        "{}, {}; {}\n",
         output_, readable_bytes(std::filesystem::file_size(output_)), counted(index.observers, "observer"),
         100 * index.mean, 100 * index.mean_error, request_.radius, undecided_in_words(index), missing_in_words(missing),
         sampled_in_words(index.sample), counted(index.triangles, "triangle"), counted(index.lines, "line"),
@@ -213,6 +212,11 @@ class VisibilityVerb final : public Verb {
   }
   static std::string each_in_words(const viewshed::IndexSample& sample) {
     return sample.rays > 0 ? counted(sample.rays, "ray") : counted(sample.targets, "target") + " at random";
+  }
+  std::string targets_in_words(const viewshed::IndexSample& sample) const {
+    const bool rays = sample.rays > 0;
+    return fmt::format("{}{} {} each observer, {:g} m above the ground", rays ? "along " : "", each_in_words(sample),
+                       rays ? "from" : "for", request_.target_height);
   }
   static std::string sampled_in_words(const viewshed::IndexSample& sample) {
     const std::string why = sample.without_rays.empty() ? "" : ", without rays, for " + in_options(sample.without_rays);
@@ -272,8 +276,7 @@ class VisibilityVerb final : public Verb {
     block.statement = viewshed::statement_of(metadata, request_.themes, request_.detail);
     block.facts = {{"Observers", fmt::format("at the centres of cells of {:g} m, {:g} m above the ground",
                                              request_.cell_size, request_.height)},
-                   {"Targets", fmt::format("{} for each observer, {:g} m above the ground", each_in_words(index.sample),
-                                           request_.target_height)},
+                   {"Targets", targets_in_words(index.sample)},
                    {"Radius", fmt::format("{:g} km", request_.radius / 1000)},
                    {"Undecided", fmt::format("{:.2f} % on average, which ground without data alone could hide",
                                              100 * index.mean_undecided)},

@@ -35,7 +35,7 @@ IndexLayout lay_out_index(const Store& store, const IndexRequest& request, Progr
 /// Where the centres of cells lie among the posts of a lattice: `step` posts apart, each as far from the post to its
 /// north-west as all others.
 struct ObserverPosts {
-  std::int64_t column = 0, row = 0;  ///< of the post at the first cell's centre, or to the north-west of it
+  std::int64_t column = 0, row = 0;  ///< the post at the first cell's centre, or to the north-west of it
   std::int64_t step = 1;
   double east = 0, south = 0;  ///< from that post, as shares of the way to the next, in [0, 1)
 };

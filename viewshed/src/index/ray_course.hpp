@@ -47,7 +47,7 @@ struct RayStep {
   double before;          ///< the distance of the edge before; 0 at the first
   double drop_before;     ///< the drop there
   double ratio;           ///< `before`, divided by what lies between
-  LatticeTin::Half half;  ///< of a whole cell, which the ray crosses before the edge
+  LatticeTin::Half half;  ///< the half of a whole cell that is crossed before the edge
   std::uint32_t looks;    ///< how many of the course's looks fall between the edges
 };
 

@@ -45,7 +45,7 @@ struct RayStates {
 
 namespace baseline {
 #define ITIN_INSTRUCTIONS
-constexpr std::size_t kLanes = 2;
+constexpr std::size_t kInVector = 2;
 #include "index/ray_walk_lanes.inc"
 #undef ITIN_INSTRUCTIONS
 }  // namespace baseline
@@ -53,14 +53,14 @@ constexpr std::size_t kLanes = 2;
 #ifdef __x86_64__
 namespace avx2 {
 #define ITIN_INSTRUCTIONS [[gnu::target("avx2")]]
-constexpr std::size_t kLanes = 4;
+constexpr std::size_t kInVector = 4;
 #include "index/ray_walk_lanes.inc"
 #undef ITIN_INSTRUCTIONS
 }  // namespace avx2
 
 namespace avx512 {
 #define ITIN_INSTRUCTIONS [[gnu::target("avx512f,avx512bw,avx512dq,avx512vl")]]
-constexpr std::size_t kLanes = 8;
+constexpr std::size_t kInVector = 8;
 #include "index/ray_walk_lanes.inc"
 #undef ITIN_INSTRUCTIONS
 }  // namespace avx512

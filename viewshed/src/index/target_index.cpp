@@ -121,7 +121,7 @@ class TargetIndexWork {
   const Store& store_;
   const IndexRequest& request_;
   const RasterGrid& grid_;
-  unsigned targets_;  ///< of each observer
+  unsigned targets_;  ///< for each observer
   bool has_raised_;   ///< whether the request names raised themes
   Statistics read_;
   SurfaceReader reader_;
