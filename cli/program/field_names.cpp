@@ -83,6 +83,7 @@ constexpr std::array kNames{
     Names{"reach_diameters", "--flicker-reach"},
     Names{"refractivity_gradient", "--refractivity-gradient"},
     Names{"repair = false", "--no-repair"},
+    Names{"remove", "--remove"},
     Names{"replace", "--replace"},
     Names{"report", "--report"},
     Names{"resolution", "--resolution"},

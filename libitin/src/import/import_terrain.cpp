@@ -89,10 +89,10 @@ void report_counts(const SetAsideCounts& before, const SetAsideCounts& now, Impo
 }
 
 Additions plan_additions(const ImportOptions& options, const Store* store, Progress& progress) {
+  if (options.sources.empty()) require_useful_options(options, {});
   Additions additions;
   additions.removed = removed_sources(options.remove, store);
   if (options.sources.empty()) {
-    require_useful_options(options, {});
     additions.plan = plan_nothing(store->metadata());
   } else if (builds_features(options)) {
     additions.footprints = read_footprint_files(options, *store, progress);

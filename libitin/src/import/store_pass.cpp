@@ -12,6 +12,7 @@
 
 #include <itin/call_progress.hpp>
 #include <itin/error.hpp>
+#include <itin/precondition.hpp>
 
 #include "import/empty_import.hpp"
 #include "import/source/source_context.hpp"
@@ -197,6 +198,8 @@ void StorePass::number_sources() {
   std::vector<bool> left_out(sources_.size(), false);
   for (const std::uint16_t s : additions_.removed) left_out[s] = true;
   const std::vector<std::uint16_t> numbers = numbers_of(sources_, left_out);
+  for (std::size_t s = 0; s < sources_.size(); ++s)
+    ITIN_PRECONDITION(!keeps_ground_ || !sources_[s].theme.empty() || numbers[s] == s);
   std::vector<SourceInfo> numbered(sources_.size() - additions_.removed.size());
   for (std::size_t s = 0; s < sources_.size(); ++s)
     if (!left_out[s]) numbered[numbers[s]] = std::move(sources_[s]);

@@ -37,46 +37,46 @@ namespace {
 using test::LineFeature;
 
 /// One file of features, or one of terrain, and how it is imported.
-struct Source {
+struct ImportedFile {
   std::string file;
   ImportOptions options;
 };
 
-std::string bytes_of_file(const std::string& path) {
+std::string whole_file(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-std::string digest(const std::string& store) {
+std::string digest_of_file(const std::string& store) {
   NoProgress progress;
   return content_digest(Store(store), progress);
 }
 
-class KeptGround : public testing::Test {
+class FeaturesComeAndGo : public testing::Test {
  protected:
-  KeptGround() { ::setenv("SOURCE_DATE_EPOCH", "1700000000", 1); }
-  ~KeptGround() override { ::unsetenv("SOURCE_DATE_EPOCH"); }
+  FeaturesComeAndGo() { ::setenv("SOURCE_DATE_EPOCH", "1700000000", 1); }
+  ~FeaturesComeAndGo() override { ::unsetenv("SOURCE_DATE_EPOCH"); }
 
   std::string path(const std::string& name) const { return directory_.file(name); }
   double in(double low, double high) { return low + (high - low) * static_cast<double>(random_() % 1000000) / 1e6; }
   bool chance(unsigned of) { return random_() % of == 0; }
 
   /// Rolling ground of 900 m, mostly with a void.
-  Source ground(const std::string& file, double step, double size, Point2 corner) {
+  ImportedFile ground(const std::string& file, double step, double size, Point2 corner) {
     const double x = in(0, size), y = in(0, size), phase = in(0, 6);
     const int posts = static_cast<int>(size / step);
     test::write_raster(path(file), {corner.x, corner.y, step, posts, posts, 27700}, [&](int c, int r) {
       if (std::hypot(c * step - x, r * step - y) < 2 * step) return std::nan("");
       return 100 + 20 * std::sin(c * step / 170 + phase) + 15 * std::cos(r * step / 130) + in(-0.3, 0.3);
     });
-    Source source{file, {}};
+    ImportedFile source{file, {}};
     source.options.sources = {path(file)};
     return source;
   }
 
   /// A file of features in a box, some beyond the ground, with fields that not every file has.
-  Source features(const std::string& file, ThemeKind kind, const std::string& theme, int count, double side,
-                  const Box& box) {
+  ImportedFile features(const std::string& file, ThemeKind kind, const std::string& theme, int count, double side,
+                        const Box& box) {
     std::vector<LineFeature> features;
     for (int i = 0; i < count; ++i) {
       LineFeature f = test::turned_box({in(box.xmin, box.xmax), in(box.ymin, box.ymax)}, in(3, side), in(3, side),
@@ -87,7 +87,7 @@ class KeptGround : public testing::Test {
       features.push_back(f);
     }
     test::write_lines(path(file), features);
-    Source source{file, {}};
+    ImportedFile source{file, {}};
     source.options.sources = {path(file)};
     source.options.kind = kind;
     source.options.theme = theme;
@@ -98,10 +98,10 @@ class KeptGround : public testing::Test {
   }
 
   /// A raster of a wood, of whose cells some are too low to stand.
-  Source canopy(const std::string& file) {
+  ImportedFile canopy(const std::string& file) {
     test::write_raster(path(file), {in(300050, 300500), in(199500, 199900), in(4, 9), 10, 9, 27700},
                        [&](int, int) { return chance(9) ? std::nan("") : in(-3, 25); });
-    Source source{file, {}};
+    ImportedFile source{file, {}};
     source.options.sources = {path(file)};
     source.options.kind = ThemeKind::Vegetation;
     source.options.theme = "canopy";
@@ -110,7 +110,7 @@ class KeptGround : public testing::Test {
   }
 
   /// Files of features that touch each other within and across themes.
-  std::vector<Source> random_features(const Box& box, double side) {
+  std::vector<ImportedFile> random_features(const Box& box, double side) {
     return {features("a.geojson", ThemeKind::Buildings, "houses", 8, side, box),
             features("b.geojson", ThemeKind::Buildings, "houses", 5, side, box),
             features("c.geojson", ThemeKind::Buildings, "houses", 1, side / 3, box),
@@ -122,7 +122,7 @@ class KeptGround : public testing::Test {
             features("i.geojson", ThemeKind::Terraces, "rows", 3, side, box)};
   }
 
-  ImportReport import(const std::string& store, const Source& source) {
+  ImportReport import(const std::string& store, const ImportedFile& source) {
     NoProgress progress;
     return source.options.kind ? import_lines(path(store), source.options, progress)
                                : import_terrain(path(store), source.options, progress);
@@ -137,36 +137,37 @@ class KeptGround : public testing::Test {
 
   /// Makes a store of these sources in a random order. The ground comes last but for the first piece of it, so that all
   /// features are put on it in the way that makes the ground, too.
-  void make_from_scratch(const std::string& store, const std::vector<Source>& ground, std::vector<Source> features) {
+  void make_from_scratch(const std::string& store, const std::vector<ImportedFile>& ground,
+                         std::vector<ImportedFile> features) {
     std::filesystem::remove(path(store));
     import(store, ground.front());
     std::shuffle(features.begin(), features.end(), random_);
-    for (const Source& source : features) import(store, source);
+    for (const ImportedFile& source : features) import(store, source);
     for (std::size_t i = 1; i < ground.size(); ++i) import(store, ground[i]);
   }
 
   /// Compares a store that features have come to and left with one from scratch; `way` tells how it came about.
-  void expect_as_from_scratch(const std::string& store, const std::vector<Source>& ground,
-                              const std::vector<Source>& features, const std::string& way) {
+  void expect_as_from_scratch(const std::string& store, const std::vector<ImportedFile>& ground,
+                              const std::vector<ImportedFile>& features, const std::string& way) {
     make_from_scratch("scratch.itin", ground, features);
-    EXPECT_EQ(digest(path(store)), digest(path("scratch.itin"))) << way;
-    EXPECT_TRUE(bytes_of_file(path(store)) == bytes_of_file(path("scratch.itin"))) << way;
+    EXPECT_EQ(digest_of_file(path(store)), digest_of_file(path("scratch.itin"))) << way;
+    EXPECT_TRUE(whole_file(path(store)) == whole_file(path("scratch.itin"))) << way;
     NoProgress progress;
     for (const Damage& damage : check(Store(path(store)), progress))
       ADD_FAILURE() << damage.place << ": " << damage.what << way;
   }
 
   /// Lets features come and go at random, twenty times, and compares every few steps.
-  void let_come_and_go(const std::vector<Source>& ground, std::vector<Source> absent, int steps_between) {
+  void let_come_and_go(const std::vector<ImportedFile>& ground, std::vector<ImportedFile> absent, int steps_between) {
     std::filesystem::remove(path("store.itin"));
-    for (const Source& source : ground) import("store.itin", source);
-    std::vector<Source> present;
+    for (const ImportedFile& source : ground) import("store.itin", source);
+    std::vector<ImportedFile> present;
     std::string way;
     for (int step = 1; step <= 20; ++step) {
       const bool comes = present.empty() || (!absent.empty() && !chance(3));
-      std::vector<Source>&from = comes ? absent : present, &to = comes ? present : absent;
+      std::vector<ImportedFile>&from = comes ? absent : present, &to = comes ? present : absent;
       const std::size_t which = random_() % from.size();
-      const Source source = from[which];
+      const ImportedFile source = from[which];
       from.erase(from.begin() + static_cast<std::ptrdiff_t>(which));
       to.push_back(source);
       way += (comes ? " + " : " - ") + source.file;
@@ -183,31 +184,31 @@ class KeptGround : public testing::Test {
   test::TemporaryDirectory directory_;
 };
 
-TEST_F(KeptGround, IsThatOfAnImportFromScratch) {
+TEST_F(FeaturesComeAndGo, AsInAnImportFromScratch) {
   for (int world = 0; world < 3 && !HasFailure(); ++world) {
-    std::vector<Source> sources = random_features({300030, 199130, 300900, 199980}, 60);
+    std::vector<ImportedFile> sources = random_features({300030, 199130, 300900, 199980}, 60);
     sources.push_back(canopy("j.tif"));
     let_come_and_go({ground("ground.tif", 50, 900, {300000, 200000}), ground("fine.tif", 10, 300, {300205, 199855})},
                     sources, 5);
   }
 }
 
-TEST_F(KeptGround, IsThatOfAnImportFromScratchOnRealTerrain) {
-  Source real{"alexandria-dtm.tif", {}}, houses{"alexandria-buildings.geojson", {}};
+TEST_F(FeaturesComeAndGo, AsInAnImportFromScratchOnRealTerrain) {
+  ImportedFile real{"alexandria-dtm.tif", {}}, houses{"alexandria-buildings.geojson", {}};
   real.options.sources = {std::string(ITIN_SOURCE_DIR) + "/scripts/demo-data/" + real.file};
   houses.options.sources = {std::string(ITIN_SOURCE_DIR) + "/scripts/demo-data/" + houses.file};
   houses.options.kind = ThemeKind::Buildings;
   houses.options.theme = "houses";
   houses.options.height_field = "HEIGHT";
-  std::vector<Source> sources = random_features({321500, 4297500, 322040, 4298000}, 40);
-  for (Source& source : sources) source.options.crs = "EPSG:26918";
+  std::vector<ImportedFile> sources = random_features({321500, 4297500, 322040, 4298000}, 40);
+  for (ImportedFile& source : sources) source.options.crs = "EPSG:26918";
   sources.push_back(houses);
   // A piece that is imported last has the same posts, so that the store from scratch makes its ground again.
   let_come_and_go({real, real}, sources, 10);
 }
 
 /// All rows of a store's trees, with what the directory says of them: by tree and code.
-std::map<std::pair<int, std::uint64_t>, std::pair<Leaf, std::vector<std::uint8_t>>> rows_of(const std::string& path) {
+std::map<std::pair<int, std::uint64_t>, std::pair<Leaf, std::vector<std::uint8_t>>> tree_rows(const std::string& path) {
   const Store store(path);
   const StoreFile& file = file_of(store);
   std::map<std::pair<int, std::uint64_t>, std::pair<Leaf, std::vector<std::uint8_t>>> rows;
@@ -221,23 +222,23 @@ std::map<std::pair<int, std::uint64_t>, std::pair<Leaf, std::vector<std::uint8_t
   return rows;
 }
 
-TEST_F(KeptGround, HasNoRowChangedFarFromWhatComes) {
+TEST_F(FeaturesComeAndGo, ChangingNoRowFarFromThem) {
   const double step = 10;
-  const Source hill = ground("ground.tif", step, 900, {300000, 200000});
-  const Source town =
+  const ImportedFile hill = ground("ground.tif", step, 900, {300000, 200000});
+  const ImportedFile town =
       features("town.geojson", ThemeKind::Buildings, "houses", 600, 12, {300030, 199130, 300900, 199980});
   const Box place{300200, 199300, 300230, 199330};
   import("before.itin", hill);
   import("before.itin", town);
   // The numbers of sources follow their checksums. A source with the last number changes none of the others.
-  Source more;
+  ImportedFile more;
   do {
     std::filesystem::copy_file(path("before.itin"), path("after.itin"),
                                std::filesystem::copy_options::overwrite_existing);
     more = features("more.geojson", ThemeKind::Buildings, "houses", 3, 12, place);
     import("after.itin", more);
   } while (Store(path("after.itin")).metadata().sources.back().path != more.file);
-  const auto before = rows_of(path("before.itin")), after = rows_of(path("after.itin"));
+  const auto before = tree_rows(path("before.itin")), after = tree_rows(path("after.itin"));
   ASSERT_EQ(Store(path("before.itin")).metadata().parts, Store(path("after.itin")).metadata().parts);
   Box near = place;
   const double reach = 12 + 2 * step;  // the features' own size, and two rings of the ground's triangles
@@ -262,78 +263,79 @@ TEST_F(KeptGround, HasNoRowChangedFarFromWhatComes) {
 }
 
 /// Stops at the n-th look.
-struct Stopping final : Progress {
-  explicit Stopping(int n) : left(n) {}
+struct StoppingAt final : Progress {
+  explicit StoppingAt(int n) : left(n) {}
   void report(std::string_view, double) override {}
   bool cancelled() const override { return --left < 0; }
   mutable std::atomic<int> left;
 };
 
-TEST_F(KeptGround, StaysWhereTheImportIsStoppedAtAnyPlace) {
+TEST_F(FeaturesComeAndGo, OrLeaveTheStoreAsItWasWhereTheyAreStopped) {
   const std::string store = path("store.itin");
   import("store.itin", ground("ground.tif", 20, 900, {300000, 200000}));
   import("store.itin", features("a.geojson", ThemeKind::Buildings, "houses", 20, 30, {300030, 199130, 300900, 199980}));
-  const std::string before = bytes_of_file(store);
-  const Source more = features("b.geojson", ThemeKind::Walls, "walls", 20, 30, {300030, 199130, 300900, 199980});
-  Stopping never(1 << 30);
+  const std::string before = whole_file(store);
+  const ImportedFile more = features("b.geojson", ThemeKind::Walls, "walls", 20, 30, {300030, 199130, 300900, 199980});
+  StoppingAt never(1 << 30);
   std::filesystem::copy_file(store, path("copy.itin"));
   import_lines(path("copy.itin"), more.options, never);
   const int looks = (1 << 30) - never.left;
   ASSERT_GT(looks, 10);
   for (int at = 0; at < looks; at += std::max(1, looks / 40)) {
-    Stopping progress(at);
+    StoppingAt progress(at);
     EXPECT_THROW(import_lines(store, more.options, progress), Cancelled) << at << " of " << looks;
-    EXPECT_TRUE(bytes_of_file(store) == before);
+    EXPECT_TRUE(whole_file(store) == before);
     EXPECT_FALSE(std::filesystem::exists(store + ".writing"));
   }
 }
 
 /// Stands for a full disk: writes beyond the limit fail.
-class FullDisk {
+class CutOffDisk {
  public:
-  explicit FullDisk(std::uint64_t bytes) {
+  explicit CutOffDisk(std::uint64_t bytes) {
     ::getrlimit(RLIMIT_FSIZE, &before_);
     const rlimit limit{bytes, before_.rlim_max};
     ::signal(SIGXFSZ, SIG_IGN);
     ::setrlimit(RLIMIT_FSIZE, &limit);
   }
-  ~FullDisk() { ::setrlimit(RLIMIT_FSIZE, &before_); }
-  FullDisk(const FullDisk&) = delete;
+  ~CutOffDisk() { ::setrlimit(RLIMIT_FSIZE, &before_); }
+  CutOffDisk(const CutOffDisk&) = delete;
 
  private:
   rlimit before_{};
 };
 
-TEST_F(KeptGround, StaysWhereTheDiskIsFull) {
+TEST_F(FeaturesComeAndGo, OrLeaveTheStoreAsItWasWhereTheDiskIsFull) {
   const std::string store = path("store.itin");
   import("store.itin", ground("ground.tif", 10, 900, {300000, 200000}));
-  const std::string before = bytes_of_file(store);
-  const Source more = features("b.geojson", ThemeKind::Walls, "walls", 20, 30, {300030, 199130, 300900, 199980});
+  const std::string before = whole_file(store);
+  const ImportedFile more = features("b.geojson", ThemeKind::Walls, "walls", 20, 30, {300030, 199130, 300900, 199980});
   for (const double share : {0.0, 0.3, 0.8, 1.0}) {
-    const FullDisk full(static_cast<std::uint64_t>(share * static_cast<double>(before.size())));
+    const CutOffDisk full(static_cast<std::uint64_t>(share * static_cast<double>(before.size())));
     EXPECT_THROW(import("store.itin", more), FileError) << share;
-    EXPECT_TRUE(bytes_of_file(store) == before);
+    EXPECT_TRUE(whole_file(store) == before);
     EXPECT_FALSE(std::filesystem::exists(store + ".writing"));
   }
 }
 
-TEST_F(KeptGround, IsNotTakenOverWhereItIsDamaged) {
+TEST_F(FeaturesComeAndGo, ButNotOnDamagedGround) {
   const std::string store = path("store.itin");
   import("store.itin", ground("ground.tif", 10, 900, {300000, 200000}));
   test::execute_sql(store,
                     "UPDATE block SET data = substr(data, 1, length(data) - 1) WHERE key = (SELECT key FROM block "
                     "ORDER BY key LIMIT 1 OFFSET 2)");
-  const std::string before = bytes_of_file(store);
-  const Source more = features("b.geojson", ThemeKind::Walls, "walls", 5, 30, {300400, 199400, 300500, 199500});
+  const std::string before = whole_file(store);
+  const ImportedFile more = features("b.geojson", ThemeKind::Walls, "walls", 5, 30, {300400, 199400, 300500, 199500});
   EXPECT_THROW(import("store.itin", more), CorruptStore);
-  EXPECT_TRUE(bytes_of_file(store) == before);
+  EXPECT_TRUE(whole_file(store) == before);
 }
 
-TEST_F(KeptGround, IsMadeAgainWhereLinesLieOnIt) {
+TEST_F(FeaturesComeAndGo, OnGroundThatIsMadeAgainWhereLinesLieOnIt) {
   import("store.itin", ground("ground.tif", 20, 900, {300000, 200000}));
-  const Source houses = features("a.geojson", ThemeKind::Buildings, "houses", 6, 30, {300030, 199130, 300900, 199980});
+  const ImportedFile houses =
+      features("a.geojson", ThemeKind::Buildings, "houses", 6, 30, {300030, 199130, 300900, 199980});
   EXPECT_EQ(import("store.itin", houses).ground_made_again, "");
-  Source outlines = features("b.geojson", ThemeKind::Walls, "outlines", 6, 90, {300030, 199130, 300900, 199980});
+  ImportedFile outlines = features("b.geojson", ThemeKind::Walls, "outlines", 6, 90, {300030, 199130, 300900, 199980});
   outlines.options.height_field.clear();
   EXPECT_EQ(import("store.itin", outlines).ground_made_again, "lines on the ground are added");
   EXPECT_EQ(remove("store.itin", "houses").ground_made_again, "lines lie on it");
@@ -341,22 +343,23 @@ TEST_F(KeptGround, IsMadeAgainWhereLinesLieOnIt) {
   EXPECT_EQ(import("other.itin", ground("more.tif", 20, 300, {300100, 199900})).ground_made_again, "terrain is added");
 }
 
-TEST_F(KeptGround, IsLeftByAWholeThemeAtOnceInPlaceOfWhichAnotherComes) {
-  const Source hill = ground("ground.tif", 20, 900, {300000, 200000});
-  std::vector<Source> sources = random_features({300030, 199130, 300900, 199980}, 60);
+TEST_F(FeaturesComeAndGo, OneThemeInThePlaceOfAnother) {
+  const ImportedFile hill = ground("ground.tif", 20, 900, {300000, 200000});
+  std::vector<ImportedFile> sources = random_features({300030, 199130, 300900, 199980}, 60);
   for (int twice = 0; twice < 2; ++twice) import("store.itin", hill);
-  for (const Source& source : sources) import("store.itin", source);
-  Source instead = features("instead.geojson", ThemeKind::Walls, "houses", 5, 40, {300030, 199130, 300900, 199980});
+  for (const ImportedFile& source : sources) import("store.itin", source);
+  ImportedFile instead =
+      features("instead.geojson", ThemeKind::Walls, "houses", 5, 40, {300030, 199130, 300900, 199980});
   instead.options.remove = {"houses", "g.geojson"};
   instead.options.wall_offset = 0.3;
   EXPECT_EQ(import("store.itin", instead).removed, 8U + 5 + 1 + 3);
-  std::erase_if(sources, [](const Source& s) { return s.options.theme == "houses" || s.file == "g.geojson"; });
+  std::erase_if(sources, [](const ImportedFile& s) { return s.options.theme == "houses" || s.file == "g.geojson"; });
   instead.options.remove.clear();
   sources.push_back(instead);
   expect_as_from_scratch("store.itin", {hill, hill}, sources, "a theme in place of another");
 }
 
-TEST_F(KeptGround, LosesNothingThatIsNotNamed) {
+TEST_F(FeaturesComeAndGo, ButNoneThatIsNotNamed) {
   import("store.itin", ground("ground.tif", 20, 900, {300000, 200000}));
   const auto refusal = [&](const std::string& name) -> std::string {
     try {
@@ -368,14 +371,14 @@ TEST_F(KeptGround, LosesNothingThatIsNotNamed) {
   };
   EXPECT_THAT(refusal("houses"), testing::HasSubstr("it has none at all"));
   import("store.itin", features("a.geojson", ThemeKind::Buildings, "houses", 6, 30, {300030, 199130, 300900, 199980}));
-  const std::string before = bytes_of_file(path("store.itin"));
+  const std::string before = whole_file(path("store.itin"));
   EXPECT_THAT(refusal("ground.tif"), testing::HasSubstr("it has a.geojson, houses"));
   ImportOptions useless;
   useless.remove = {"houses"};
   useless.height = 3;
   NoProgress progress;
   EXPECT_THROW(import_terrain(path("store.itin"), useless, progress), InputError);
-  EXPECT_TRUE(bytes_of_file(path("store.itin")) == before);
+  EXPECT_TRUE(whole_file(path("store.itin")) == before);
   useless.height.reset();
   EXPECT_THROW(import_terrain(path("none.itin"), useless, progress), InputError);
   EXPECT_FALSE(std::filesystem::exists(path("none.itin")));
