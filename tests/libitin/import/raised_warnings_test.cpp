@@ -26,14 +26,14 @@ StoreMetadata store_with(std::uint64_t houses) {
 
 TEST(RaisedWarnings, OfOlderSourcesAreNotRepeated) {
   const StoreMetadata before = store_with(4);
-  EXPECT_THAT(raised_warnings(town(4), &before, 2), ElementsAre("theme 'woods': b: has a hole"));
-  EXPECT_THAT(raised_warnings(town(4), &before, 3), IsEmpty());
-  EXPECT_EQ(raised_warnings(town(4), nullptr, 0).size(), 2U);
+  EXPECT_THAT(raised_warnings(town(4), &before, {2}), ElementsAre("theme 'woods': b: has a hole"));
+  EXPECT_THAT(raised_warnings(town(4), &before, {3}), IsEmpty());
+  EXPECT_EQ(raised_warnings(town(4), nullptr, {1, 2}).size(), 2U);
 }
 
 TEST(RaisedWarnings, TellWhatNoLongerStands) {
   const StoreMetadata before = store_with(5);
-  EXPECT_THAT(raised_warnings(town(4), &before, 3),
+  EXPECT_THAT(raised_warnings(town(4), &before, {3}),
               ElementsAre("theme 'houses': 1 of its features stood before, and do not on this ground",
                           "theme 'houses': a: left out: has no area"));
 }
@@ -41,7 +41,7 @@ TEST(RaisedWarnings, TellWhatNoLongerStands) {
 TEST(RaisedWarnings, AreTwentyATheme) {
   RaisedFeaturesReport raised;
   raised.themes = {{"houses", 0, std::vector<RaisedReport>(50, {0, "a: left out"})}};
-  const auto warnings = raised_warnings(raised, nullptr, 0);
+  const auto warnings = raised_warnings(raised, nullptr, {0});
   ASSERT_EQ(warnings.size(), 21U);
   EXPECT_THAT(warnings.back(), HasSubstr("30 more like these"));
 }
