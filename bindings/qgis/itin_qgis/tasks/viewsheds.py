@@ -254,10 +254,11 @@ class Visibility(OfWindow):
             "RAYS",
             "Rays from every observer",
             "--rays",
+            default=128,
             minimum=8,
             whole=True,
             advanced=True,
-            help="Left blank: 128, over a raster at full detail of whose posts cells are a multiple",
+            help="Over a raster at full detail, of whose own cells these are a multiple; elsewhere targets lie at random",
         ),
         Number(
             "TARGETS",
