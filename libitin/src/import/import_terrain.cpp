@@ -219,7 +219,7 @@ ImportReport import_lines(const std::string& store_path, const ImportOptions& op
                                  store_path, name_of(*options.kind)));
   }
   ImportReport report = import_sources(store_path, lines, progress);
-  if (may_be_raised(*options.kind) && !builds_features(options)) {
+  if (!options.sources.empty() && may_be_raised(*options.kind) && !builds_features(options)) {
     report.warnings.push_back(
         fmt::format("{} without heights are outlines on the ground; to make them stand, give "
                     "`height_field` or `height`, and another `theme`",
