@@ -28,13 +28,13 @@
 namespace itin::viewshed {
 namespace {
 
-using Heights = std::function<double(int, int)>;
+using HeightAt = std::function<double(int, int)>;
 
 class RayIndex : public testing::Test {
  protected:
   static constexpr int kSide = 60;
 
-  void import_posts(const Heights& height, int side = kSide) const {
+  void import_posts(const HeightAt& height, int side = kSide) const {
     const std::string raster = directory_.file("t.tif");
     test::write_raster(raster, {300000, 200000, 50, side, side, 27700}, height);
     ImportOptions options;
@@ -43,10 +43,10 @@ class RayIndex : public testing::Test {
     import_terrain(path_, options, progress);
   }
 
-  Heights rough(double height) const {
+  HeightAt rough(double height) const {
     return [this, height](int, int) { return std::uniform_real_distribution<double>(0, height)(*random_); };
   }
-  static Heights with_lakes(const Heights& ground) {
+  static HeightAt with_lakes(const HeightAt& ground) {
     return [ground](int c, int r) {
       const double height = ground(c, r);
       const bool lake = std::hypot(c - 40, r - 25) < 7 || std::hypot(c - 14, r - 44) < 3 || (c == 30 && r > 30);
@@ -233,7 +233,7 @@ TEST_F(RayIndex, PostsLieSideBySide) {
 TEST_F(RayIndex, LooksAreLinesOfSight) {
   const test::CardiffTerrain terrain;
   IndexRequest request{.height = 2, .radius = 1000, .rays = 32};
-  for (const Heights& ground : {Heights([&](int c, int r) { return terrain(c + 200, r + 150); }), rough(6)}) {
+  for (const HeightAt& ground : {HeightAt([&](int c, int r) { return terrain(c + 200, r + 150); }), rough(6)}) {
     import_posts(ground);
     for (const double target_height : {0.0, 3.0}) {
       request.target_height = target_height;
@@ -256,7 +256,7 @@ TEST_F(RayIndex, LooksAreLinesOfSightOverTheSummitsOfStretches) {
 
 TEST_F(RayIndex, LooksAcrossGroundWithoutDataAreLinesOfSight) {
   const test::CardiffTerrain terrain;
-  for (const Heights& ground : {Heights([&](int c, int r) { return terrain(c + 200, r + 150); }), rough(6)}) {
+  for (const HeightAt& ground : {HeightAt([&](int c, int r) { return terrain(c + 200, r + 150); }), rough(6)}) {
     import_posts(with_lakes(ground));
     for (const Earth& earth : {Earth(), Earth::effective_earth(1e-3)})
       expect_lines_of_sight_from_everywhere(
