@@ -124,7 +124,7 @@ class ThemeRaiser {
   struct Group {
     Numbers numbers;
     GridBox box;
-    std::uint64_t points = 0;  ///< of the ground, in the leaves about the box
+    std::uint64_t points = 0;  ///< how many points of the ground its leaves have
   };
   using Groups = std::vector<Group>;
 

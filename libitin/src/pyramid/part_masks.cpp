@@ -135,7 +135,7 @@ std::vector<PartClusters> clusters_of_lines(const ThemeLines& lines) {
 }
 
 /// The ground's leaves under the masks of all parts, each once.
-std::vector<Leaf> leaves_under(const std::vector<PlacedPart>& parts, const PointIndex& ground) {
+std::vector<Leaf> leaves_under_masks(const std::vector<PlacedPart>& parts, const PointIndex& ground) {
   std::vector<Leaf> leaves;
   for (const PlacedPart& part : parts)
     for (const GridPolygon& mask : part.masks) ground.leaves({}, box_about(mask), leaves);
@@ -182,7 +182,7 @@ WrittenParts write_parts(const ThemeLines& lines, const PointIndex& ground, cons
   std::vector<PartClusters> clusters = clusters_of_lines(lines);
   std::vector<PartMask> parts;
   for (std::size_t i = 0; i < lines.parts.size(); ++i) parts.emplace_back(lines.parts[i], std::move(clusters[i]));
-  mask_terrain(parts, leaves_under(lines.parts, ground), ground, progress);
+  mask_terrain(parts, leaves_under_masks(lines.parts, ground), ground, progress);
   for (std::size_t i = 0; i < parts.size(); ++i) {
     mask_vertices(parts[i], draped);
     for (const PlacedPart& other : lines.parts)

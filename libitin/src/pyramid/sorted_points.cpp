@@ -372,7 +372,7 @@ class PointSorter::Impl {
   std::vector<Run> runs_;
   std::vector<std::vector<RawPoint>> chunks_;  // all but the last one full
   std::vector<std::vector<RawPoint>> spare_;   // empty, with memory
-  std::vector<std::uint16_t> numbers_;         // of sources, by the numbers that they were added with; or empty
+  std::vector<std::uint16_t> numbers_;         // a source of number s has numbers_[s] now; may be empty
 };
 
 PointSorter::PointSorter(std::string directory, std::uint64_t memory_bytes)
