@@ -13,7 +13,8 @@
 namespace itin::cli {
 
 std::unique_ptr<viewshed::Tasks> Verb::divide(std::uint64_t, Progress&) {
-  throw InputError(fmt::format("itin job divides site, viewshed, visibility and ztv, not {}; run it by itself", name()));
+  throw InputError(
+      fmt::format("itin job divides site, viewshed, visibility and ztv, not {}; run it by itself", name()));
 }
 
 void Verb::take_answers(viewshed::Tasks&) {
