@@ -3,7 +3,7 @@
 # Prints how far shares are off at places 20 km within, and how many of them the stated error covers; what the index of
 # the whole square costs, with an observer at each post; and what a look takes with each set of instructions, which have
 # to give the same bytes. The truth of a place is a viewshed of cells of 13 m, which the sweep decides.
-# Cells of 10 or 25 m would not do: many of their centres lie on edges between posts, which are seen more often.
+# Cells of 10 or 25 m would not do: many of their centres lie on edges between posts, and more of them are seen.
 #   benchmarks/peers/index.sh [PLACES]          # 40 places, if it is not told otherwise
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/measure.sh"

@@ -330,7 +330,7 @@ TEST_F(RayIndex, AgreesWithViewshedsWithinItsStandardError) {
     Request look;
     look.observers = {
         {"o", result.grid.centre(static_cast<std::int64_t>(i) % 8, static_cast<std::int64_t>(i) / 8), 10}};
-    // Cells of 10 m would have many of their centres on edges between posts, which are seen more often.
+    // Cells of 10 m would have many of their centres on edges between posts, and more of them would be seen.
     look.target_height = 2, look.radius = 1500, look.cell_size = 7;
     NoProgress progress;
     const CellCounts cells = compute(Store(path_), look, progress).cells;
