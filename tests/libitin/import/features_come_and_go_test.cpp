@@ -8,10 +8,7 @@
 #include <fstream>
 #include <gmock/gmock.h>
 #include <iterator>
-#include <map>
-#include <numeric>
 #include <random>
-#include <set>
 #include <string>
 #include <sys/resource.h>
 #include <vector>
@@ -22,11 +19,8 @@
 #include <itin/import.hpp>
 #include <itin/store.hpp>
 
-#include "store/store_file.hpp"
-#include "store/store_format.hpp"
 #include "support/forged_rows.hpp"
 #include "support/raster_file.hpp"
-#include "support/row_bytes.hpp"
 #include "support/seed.hpp"
 #include "support/temporary_directory.hpp"
 #include "support/vector_file.hpp"
@@ -205,61 +199,6 @@ TEST_F(FeaturesComeAndGo, AsInAnImportFromScratchOnRealTerrain) {
   sources.push_back(houses);
   // A piece that is imported last has the same posts, so that the store from scratch makes its ground again.
   let_come_and_go({real, real}, sources, 10);
-}
-
-/// All rows of a store's trees, with what the directory says of them: by tree and code.
-std::map<std::pair<int, std::uint64_t>, std::pair<Leaf, std::vector<std::uint8_t>>> tree_rows(const std::string& path) {
-  const Store store(path);
-  const StoreFile& file = file_of(store);
-  std::map<std::pair<int, std::uint64_t>, std::pair<Leaf, std::vector<std::uint8_t>>> rows;
-  for (const auto& [tree, chunks] : file.chunks())
-    file.for_each_leaf_of(tree, [&, number = tree](const Leaf& leaf) {
-      auto& [told, bytes] = rows[{number, leaf.cell.code}];
-      told = leaf;
-      const bool bare = number > 0 && number < file.metadata().fine_levels;
-      if (leaf.points > 0 && !bare) bytes = test::bytes_of(file.rows(), BlobKind::Block, leaf.key);
-    });
-  return rows;
-}
-
-TEST_F(FeaturesComeAndGo, ChangingNoRowFarFromThem) {
-  const double step = 10;
-  const ImportedFile hill = ground("ground.tif", step, 900, {300000, 200000});
-  const ImportedFile town =
-      features("town.geojson", ThemeKind::Buildings, "houses", 600, 12, {300030, 199130, 300900, 199980});
-  const Box place{300200, 199300, 300230, 199330};
-  import("before.itin", hill);
-  import("before.itin", town);
-  // The numbers of sources follow their checksums. A source with the last number changes none of the others.
-  ImportedFile more;
-  do {
-    std::filesystem::copy_file(path("before.itin"), path("after.itin"),
-                               std::filesystem::copy_options::overwrite_existing);
-    more = features("more.geojson", ThemeKind::Buildings, "houses", 3, 12, place);
-    import("after.itin", more);
-  } while (Store(path("after.itin")).metadata().sources.back().path != more.file);
-  const auto before = tree_rows(path("before.itin")), after = tree_rows(path("after.itin"));
-  ASSERT_EQ(Store(path("before.itin")).metadata().parts, Store(path("after.itin")).metadata().parts);
-  Box near = place;
-  const double reach = 12 + 2 * step;  // the features' own size, and two rings of the ground's triangles
-  near = {near.xmin - reach, near.ymin - reach, near.xmax + reach, near.ymax + reach};
-  const GridBox touched = Store(path("after.itin")).metadata().grid.enclosing(near);
-  std::size_t features = 0, changed = 0;
-  for (const auto& [name, row] : after) {
-    const auto same = before.find(name);
-    const bool equal = same != before.end() && same->second.second == row.second &&
-                       same->second.first.lo == row.first.lo && same->second.first.hi == row.first.hi;
-    const bool of_features = name.first >= format::kMaxLevels && name.first != format::edge_tree(kCoverage);
-    features += of_features ? 1 : 0;
-    changed += equal ? 0 : 1;
-    if (equal) continue;
-    EXPECT_TRUE(of_features) << "tree " << name.first;
-    EXPECT_TRUE(row.first.cell.box().meets(touched)) << "tree " << name.first;
-  }
-  for (const auto& [name, row] : before)
-    EXPECT_TRUE(after.contains(name) || row.first.cell.box().meets(touched)) << "tree " << name.first;
-  EXPECT_GT(changed, 0U);
-  EXPECT_GT(features, 3 * changed) << "the town has too few rows to tell";
 }
 
 /// Stops at the n-th look.
