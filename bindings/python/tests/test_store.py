@@ -28,9 +28,10 @@ def test_counts_the_features_that_imports_left_out(tmp_path: Path) -> None:
     path, towers = tmp_path / "towers.itin", tmp_path / "towers.csv"
     itin.import_terrain(path, DATA / "cardiff.tif")
     x, y = itin.Store(path).bounds[:2]
-    rings = [f"(({w} {s}, {w + 20} {s}, {w + 20} {s + 20}, {w} {s + 20}, {w} {s}))" for w, s in ((318000, 178000), (x - 999, y))]
+    corners = ((318000, 178000), (x - 999, y))
+    rings = [f"(({w} {s}, {w + 20} {s}, {w + 20} {s + 20}, {w} {s + 20}, {w} {s}))" for w, s in corners]
     towers.write_text("WKT,h\n" + "".join(f'"POLYGON {ring}",9\n' for ring in rings))
-    itin.import_features(path, towers, kind="buildings", height_field="h")
+    itin.import_features(path, towers, kind="buildings", height_field="h", crs="EPSG:27700")
     (theme,) = itin.Store(path).themes
     assert (theme.features, theme.left_out) == (1, 1)
 
