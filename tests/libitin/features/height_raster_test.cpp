@@ -98,7 +98,12 @@ TEST_F(HeightRaster, OutlinesOfItsThemeThatDoNotStandAreKnownByTheirNumbers) {
                        test::box(300400, 199900, 300410, 199910, 8), test::box(300420, 199900, 300430, 199910, 8)});
   const Store store(path("s.itin"));
   ASSERT_EQ(store.metadata().themes.size(), 1U);
-  EXPECT_EQ(store.metadata().themes[0].left_out, (std::vector<FeatureRun>{{parts, parts}, {parts + 2, parts + 3}}));
+  const std::vector<FeatureRun>& left_out = store.metadata().themes[0].left_out;
+  ASSERT_FALSE(left_out.empty());
+  // What the sources hold decides which of them has the first numbers.
+  const std::int64_t first = left_out[0].first;
+  EXPECT_TRUE(first == 0 || first == parts) << first;
+  EXPECT_EQ(left_out, (std::vector<FeatureRun>{{first, first}, {first + 2, first + 3}}));
 }
 
 TEST_F(HeightRaster, StandsAsThePrismsOfItsCells) {

@@ -229,11 +229,11 @@ std::uint64_t LineCollection::take_features(const Store& store, const Sources& l
       }
       continue;
     }
-    for (std::uint16_t s = 0; s < store.metadata().sources.size(); ++s) {
+    for (std::size_t s = 0; s < store.metadata().sources.size(); ++s) {
       const SourceInfo& source = store.metadata().sources[s];
       if (source.theme != themes_[t].info.name) continue;
       for (std::uint64_t i = 0; i < source.features && record != features.records.end(); ++i)
-        add_feature(t, s, std::move(*record++));
+        add_feature(t, static_cast<std::uint16_t>(s), std::move(*record++));
     }
   }
   return count;
