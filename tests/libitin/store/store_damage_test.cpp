@@ -145,7 +145,7 @@ TEST_F(StoreDamage, OlderFormat) {
 
 TEST_F(StoreDamage, ForeignContentsUnderOurApplicationId) {
   std::filesystem::remove(path_);
-  execute("PRAGMA application_id=0x4954494e; PRAGMA user_version=10; CREATE TABLE t(a)");
+  execute("PRAGMA application_id=0x4954494e; PRAGMA user_version=11; CREATE TABLE t(a)");
   expect_message<CorruptStore>("schema");
 }
 

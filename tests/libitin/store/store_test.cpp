@@ -89,7 +89,7 @@ class StoreTest : public testing::Test {
 TEST_F(StoreTest, MetadataIsWhatWasWritten) {
   const Store store(path_);
   const StoreMetadata& m = store.metadata();
-  EXPECT_EQ(m.format_version, 10);
+  EXPECT_EQ(m.format_version, 11);
   EXPECT_EQ(m.fine_levels, given_.fine_levels);
   EXPECT_EQ(m.crs_wkt, "LOCAL_CS[\"test\"]");
   EXPECT_EQ(m.grid, given_.grid);
