@@ -26,6 +26,7 @@ LEFT_TO_FURTHER_OPTIONS = {
     ("*", "--json"),
     ("*", "--quiet"),
     ("*", "--allow-network"),
+    ("import", "--remove"),  # names no layer
     ("viewshed", "--precise"),  # the default
     ("los", "--profile-csv"),  # work without a store
     ("los", "--heights"),
