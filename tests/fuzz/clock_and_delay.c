@@ -51,37 +51,25 @@ time_t time(time_t* result) {
   return now.tv_sec;
 }
 
-static mode_t mode_of(int flags, va_list rest) {
-  return (flags & O_CREAT) != 0 ? va_arg(rest, mode_t) : 0;
-}
+#define SLOW_OPEN(name)                                                   \
+  int name(const char* path, int flags, ...) {                            \
+    va_list rest;                                                         \
+    va_start(rest, flags);                                                \
+    const mode_t mode = (flags & O_CREAT) != 0 ? va_arg(rest, mode_t) : 0; \
+    va_end(rest);                                                         \
+    wait_for_server(path);                                                \
+    return NEXT(name)(path, flags, mode);                                 \
+  }
+SLOW_OPEN(open)
+SLOW_OPEN(open64)
 
-int open(const char* path, int flags, ...) {
-  va_list rest;
-  va_start(rest, flags);
-  const mode_t mode = mode_of(flags, rest);
-  va_end(rest);
-  wait_for_server(path);
-  return NEXT(open)(path, flags, mode);
-}
-
-int open64(const char* path, int flags, ...) {
-  va_list rest;
-  va_start(rest, flags);
-  const mode_t mode = mode_of(flags, rest);
-  va_end(rest);
-  wait_for_server(path);
-  return NEXT(open64)(path, flags, mode);
-}
-
-FILE* fopen(const char* restrict path, const char* restrict mode) {
-  wait_for_server(path);
-  return NEXT(fopen)(path, mode);
-}
-
-FILE* fopen64(const char* restrict path, const char* restrict mode) {
-  wait_for_server(path);
-  return NEXT(fopen64)(path, mode);
-}
+#define SLOW_FOPEN(name)                                             \
+  FILE* name(const char* restrict path, const char* restrict mode) { \
+    wait_for_server(path);                                           \
+    return NEXT(name)(path, mode);                                   \
+  }
+SLOW_FOPEN(fopen)
+SLOW_FOPEN(fopen64)
 
 int stat(const char* restrict path, struct stat* restrict status) {
   wait_for_server(path);

@@ -8,9 +8,7 @@ The job is a visibility index of the demo's terrain in many tasks. Runners are k
 end every task has one answer, nothing that was begun is left, and no process is.
 """
 
-import argparse
 import contextlib
-import filecmp
 import os
 import pathlib
 import random
@@ -20,14 +18,9 @@ import sys
 import tempfile
 import time
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-TERRAIN = ROOT / "scripts/demo-data/cardiff.tif"
-DASK = ROOT / "bindings/dask/itin-dask"
+from job_trial import DASK, answer_alone, call, merge, plan, trial_parser
+
 PATIENCE = "2"
-
-
-def call(*arguments):
-    return subprocess.run(arguments, check=True, stdout=subprocess.PIPE).stdout.decode()
 
 
 def children_of(pid):
@@ -134,42 +127,27 @@ def is_program(pid):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("program")
-    parser.add_argument("--kills", type=int, default=200)
-    parser.add_argument("--every", type=float, default=0.7, help="seconds between kills, on average")
-    parser.add_argument("--targets", default="4096", help="how much work a task is")
-    parser.add_argument("--tasks", default="200", help="about how many tasks the job has")
-    parser.add_argument("--dask", action="store_true")
-    parser.add_argument("--seed", type=int, default=random.randrange(1 << 30))
-    options = parser.parse_args()
+    options = trial_parser(__doc__, kills=200, every=0.7, targets="4096", tasks="200").parse_args()
     chance = random.Random(options.seed)
     print(f"seed {options.seed}", flush=True)
-    program = str(pathlib.Path(options.program).resolve())
     with tempfile.TemporaryDirectory() as folder:
         os.chdir(folder)
-        call(program, "import", "c.itin", TERRAIN, "--quiet")
-        question = ["visibility", "c.itin", "--bbox", "308000,180000,314000,186000", "--cell", "60", "--radius", "3000"]
-        question += ["--targets", options.targets]
-        call(program, *question, "-o", "alone.tif", "--quiet")
-        call(program, "job", "plan", "job", "--tasks", options.tasks, *question, "-o", "together.tif")
-        runners = (DaskRunners if options.dask else Runners)(program, "job")
+        answer_alone(options)
+        plan(options, "job")
+        runners = (DaskRunners if options.dask else Runners)(options.program, "job")
         kills, begun = 0, time.time()
-        while kills < options.kills and call(program, "job", "status", "job", "--open"):
+        while kills < options.kills and call(options.program, "job", "status", "job", "--open"):
             time.sleep(chance.uniform(0, 2 * options.every))
             kills += runners.kill_one(chance)
         seconds = time.time() - begun
         runners.finish()
         time.sleep(1)
         orphans = [pid for pid in descendants_of(os.getpid()) if is_program(pid)]
-        done = call(program, "job", "status", "job")
-        call(program, "job", "merge", "job", "--quiet")
-        if not filecmp.cmp("alone.tif", "together.tif", shallow=False):
-            sys.exit("the merged index has other bytes than the index by itself")
+        done = merge(options, "job")
         if orphans:
             sys.exit(f"processes are left: {orphans}")
         begun_files = sorted(os.listdir("job/tmp"))
-        print(f"{kills} kills in {seconds:.0f} s; {done.splitlines()[0]}; {len(begun_files)} files in tmp; same bytes")
+        print(f"{kills} kills in {seconds:.0f} s; {done}; {len(begun_files)} files in tmp; same bytes")
 
 
 if __name__ == "__main__":

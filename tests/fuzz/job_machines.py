@@ -14,9 +14,7 @@ machines claimed them at the same moment, is told. In the second round machines 
 which may show a file late, are not tried.
 """
 
-import argparse
 import contextlib
-import filecmp
 import json
 import os
 import pathlib
@@ -27,16 +25,10 @@ import sys
 import tempfile
 import time
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-TERRAIN = ROOT / "scripts/demo-data/cardiff.tif"
-DASK = ROOT / "bindings/dask/itin-dask"
+from job_trial import DASK, answer_alone, call, merge, plan, trial_parser
+
 PATIENCE = "3"
 PORT = "8786"
-QUESTION = ["visibility", "c.itin", "--bbox", "308000,180000,314000,186000", "--cell", "60", "--radius", "3000"]
-
-
-def call(*arguments):
-    return subprocess.run(arguments, check=True, stdout=subprocess.PIPE).stdout.decode()
 
 
 class Machine:
@@ -137,8 +129,7 @@ def expect_calm(job, runners):
 
 def round_of(machines, options, job, kills, chance):
     """Plans and answers a job. Returns what happened, in words."""
-    question = [*QUESTION, "--targets", options.targets, "-o", job + ".tif"]
-    call(options.program, "job", "plan", job, "--tasks", options.tasks, *question)
+    plan(options, job)
     begun = time.time()
     runners = (DaskRunners if options.dask else Runners)(machines, options, job)
     killed = 0
@@ -156,27 +147,16 @@ def round_of(machines, options, job, kills, chance):
     for machine in machines:
         if machine.process.poll() is None:
             machine.cut_power()
-    status = call(options.program, "job", "status", job).splitlines()[0]
-    call(options.program, "job", "merge", job, "--quiet")
-    if not filecmp.cmp("alone.tif", job + ".tif", shallow=False):
-        sys.exit("the merged index has other bytes than the index by itself")
+    status = merge(options, job)
     left = {folder: len(os.listdir(f"{job}/{folder}")) for folder in ("tmp", "claims", "failed")}
     return f"{killed} times without power in {seconds:.0f} s; {status}; left: {left}; same bytes{twice}"
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("program")
+    parser = trial_parser(__doc__, kills=10, every=2, targets="8192", tasks="100")
     parser.add_argument("--machines", type=int, default=3)
-    parser.add_argument("--kills", type=int, default=10)
-    parser.add_argument("--every", type=float, default=2, help="seconds between kills, on average")
     parser.add_argument("--delay", type=float, default=5, help="milliseconds that each call about a file takes")
-    parser.add_argument("--targets", default="8192", help="how much work a task is")
-    parser.add_argument("--tasks", default="100", help="about how many tasks the job has")
-    parser.add_argument("--dask", action="store_true")
-    parser.add_argument("--seed", type=int, default=random.randrange(1 << 30))
     options = parser.parse_args()
-    options.program = str(pathlib.Path(options.program).resolve())
     chance = random.Random(options.seed)
     print(f"seed {options.seed}", flush=True)
     with tempfile.TemporaryDirectory() as folder, contextlib.ExitStack() as at_the_end:
@@ -184,8 +164,7 @@ def main():
         options.shim = folder + "/clock_and_delay.so"
         source = pathlib.Path(__file__).with_name("clock_and_delay.c")
         call("cc", "-O2", "-shared", "-fPIC", "-o", options.shim, source, "-ldl")
-        call(options.program, "import", "c.itin", TERRAIN, "--quiet")
-        call(options.program, *QUESTION, "--targets", options.targets, "-o", "alone.tif", "--quiet")
+        answer_alone(options)
         machines = []
         for number in range(options.machines + options.dask):
             # The last two have one name.

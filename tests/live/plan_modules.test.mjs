@@ -14,7 +14,8 @@ const { addTurbine, commonSize, removeTurbine, resizeTurbines, rotorOf, takeLayo
 const { cellsIn, encloses, servedOf, MOST_CELLS_SERVED } = await module("state/served");
 const { TIPS, HUBS, wantedOf } = await module("seen/viewers");
 const { placesIn, rowsIn, turbineTable } = await module("plan/tables");
-const { buildingNear, buildingsOf } = await module("state/premises");
+const { nearestPlace } = await module("state/nearest");
+const { buildingsOf } = await module("state/premises");
 const { jobOptions } = await module("plan/job_options");
 const { extentFor, toleranceFor } = await module("relief/window");
 const { middleSeen } = await module("seen/middle_seen");
@@ -40,9 +41,9 @@ test("buildings of a survey have how they are served, and are found near the cur
       ["houses, 3", "hidden by houses, feature 2"],
     ],
   );
-  assert.equal(buildingNear(buildings, [42, 21], 5)?.name, "houses, 2");
-  assert.equal(buildingNear(buildings, [42, 28], 5), null);
-  assert.equal(buildingNear([], [0, 0], 5), null);
+  assert.equal(nearestPlace(buildings, [42, 21], 5)?.name, "houses, 2");
+  assert.equal(nearestPlace(buildings, [42, 28], 5), null);
+  assert.equal(nearestPlace([], [0, 0], 5), null);
 });
 
 test("counts have bands of equal width, and none seen is no value", () => {

@@ -108,10 +108,12 @@ def _rings(
     }
 
 
+def _place(place: Place) -> dict[str, Any]:
+    return fields_of(place) | {"sectors": [fields_of(sector) for sector in place.sectors]}
+
+
 def _places(places: Iterable[Place] | None) -> list[dict[str, Any]] | None:
-    if places is None:
-        return None
-    return [fields_of(place) | {"sectors": [fields_of(sector) for sector in place.sectors]} for place in places]
+    return None if places is None else [_place(place) for place in places]
 
 
 def _named(places: Iterable[Place] | None) -> list[dict[str, Any]] | None:
@@ -683,9 +685,7 @@ class Store:
             fields["turbines"] = fields_of(turbines)
             if turbines.dwellings is not None:
                 fields["turbines"]["dwellings"] = _numbers(turbines.dwellings)
-        fields |= given({"candidates": _named(candidates), "existing": _named(existing)})
-        if hub is not None:
-            fields["hub"] = fields_of(hub)
+        fields |= given({"candidates": _named(candidates), "existing": _named(existing), "hub": hub and _place(hub)})
         if isinstance(demand, tuple) and len(demand) == 2 and isinstance(demand[0], Grid):
             fields["demand_grid"] = tuple_of(demand[0])
             fields["demand_weights"] = _numbers(cast(ArrayLike, demand[1]))

@@ -10,9 +10,9 @@
 // they were imported: a store keeps unchanged what it leaves out, cuts or moves, and every import begins with all of
 // it. The order shows in what the first import chooses for a store, CRS, grid and levels, and nowhere else.
 //
-// Where no line lies on the ground (contours, breaklines, water, roads, outlines without
-// heights), features that stand come and go, and the ground stays as it is. In all other cases adding makes the whole
-// store again; it takes as long as importing everything anew.
+// Where no line lies on the ground (contours, breaklines, water, roads, outlines without heights), features that stand
+// come and go, and the ground stays as it is. In all other cases adding makes the whole store again; it takes as long
+// as importing everything anew.
 #pragma once
 
 #include <cstdint>

@@ -24,7 +24,7 @@
 #include "features/mask_index.hpp"
 #include "features/terrain_heights.hpp"
 #include "geometry/cell.hpp"
-#include "store/point_index.hpp"
+#include "store/points_of_leaves.hpp"
 #include "triangulate/apex.hpp"
 
 namespace itin {
@@ -151,7 +151,7 @@ class ThemeRaiser {
       if (first.empty()) continue;
       Group group{std::move(numbers), {}};
       for (const std::uint32_t i : group.numbers) group.box.extend(boxes[i]);
-      group.points = points_in(group.box);
+      group.points = points_of_leaves(ground_.points(), group.box);
       pieces[{static_cast<std::int64_t>(std::floor(first.xmin / side)),
               static_cast<std::int64_t>(std::floor(first.ymin / side))}]
           .push_back(std::move(group));
@@ -166,7 +166,7 @@ class ThemeRaiser {
     GridBox box;
     std::uint64_t under = 0;
     for (const Group& group : groups) box.extend(group.box), under += group.points;
-    const std::uint64_t points = points_in(box);
+    const std::uint64_t points = points_of_leaves(ground_.points(), box);
     if (groups.size() == 1 || points <= std::min(kMostPoints, 2 * under)) {
       require_room(groups, points);
       return build(groups, box, progress);
@@ -179,13 +179,6 @@ class ThemeRaiser {
     const auto middle = groups.begin() + static_cast<std::ptrdiff_t>(groups.size() / 2);
     build(Groups(groups.begin(), middle), progress);
     build(Groups(middle, groups.end()), progress);
-  }
-
-  std::uint64_t points_in(const GridBox& box) const {
-    std::vector<Leaf> leaves;
-    ground_.points().leaves({}, box, leaves);
-    return std::accumulate(leaves.begin(), leaves.end(), std::uint64_t{0},
-                           [](std::uint64_t sum, const Leaf& leaf) { return sum + leaf.points; });
   }
 
   void require_room(const Groups& groups, std::uint64_t points) const {

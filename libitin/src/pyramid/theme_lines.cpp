@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <atomic>
 #include <map>
-#include <numeric>
 
 #include <itin/box_of.hpp>
 #include <itin/detail.hpp>
@@ -16,6 +15,7 @@
 #include "pyramid/grounded.hpp"
 #include "pyramid/points_in_triangles.hpp"
 #include "store/edge_quadtree.hpp"
+#include "store/points_of_leaves.hpp"
 #include "triangulate/region.hpp"
 
 namespace itin {
@@ -256,11 +256,7 @@ constexpr std::uint64_t kMostDraped = 1 << 16;
 void divide(std::span<const std::uint64_t> codes, const PointIndex& ground,
             std::vector<std::span<const std::uint64_t>>& runs) {
   const GridBox box = box_of(codes, position_of);
-  std::vector<Leaf> leaves;
-  if (codes.size() > 1) ground.leaves({}, box, leaves);
-  const std::uint64_t points = std::accumulate(leaves.begin(), leaves.end(), std::uint64_t{0},
-                                               [](std::uint64_t sum, const Leaf& l) { return sum + l.points; });
-  if (points <= kMostDraped) return runs.push_back(codes);
+  if (codes.size() == 1 || points_of_leaves(ground, box) <= kMostDraped) return runs.push_back(codes);
   const Cell cell = cell_about(box);
   for (int i = 0; i < 4; ++i) {
     const auto end = std::lower_bound(codes.begin(), codes.end(), cell.child(i).end());

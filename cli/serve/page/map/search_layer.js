@@ -1,8 +1,10 @@
 // Where sites are looked for, and the candidates: an area that is drawn on the map or was sent, and points; and what
 // they are to serve.
 
-import { Circle, Draw, Feature, Fill, Polygon, Stroke, Style, VectorLayer, VectorSource } from "../vendor/ol.js";
+import { Draw, Feature, Fill, Polygon, Stroke, Style, VectorLayer, VectorSource } from "../vendor/ol.js";
+import { nearestPlace } from "../state/nearest.js";
 import { closedCorners } from "../state/plan.js";
+import { dotAt } from "./dot.js";
 
 /** @typedef {import("../state/scene.js").Scene} Scene */
 /** @typedef {import("../vendor/ol.js").OlMap} OlMap */
@@ -37,12 +39,7 @@ const areasOf = (rings, style) =>
   });
 
 /** @param {{x: number, y: number}[]} places @param {number} pixels @param {Fill} fill @param {Stroke} stroke */
-const pointsOf = (places, pixels, fill, stroke) =>
-  places.map(({ x, y }) => {
-    const point = new Feature(new Circle([x, y], 1));
-    point.setStyle((_, resolution) => new Style({ geometry: new Circle([x, y], pixels * resolution), fill, stroke }));
-    return point;
-  });
+const pointsOf = (places, pixels, fill, stroke) => places.map((place) => dotAt(place, pixels, fill, stroke));
 
 /** @param {import("../state/scene.js").SceneState} state @returns {{rings: number[][], places: {x: number, y: number}[]}} */
 function searched({ search, plan }) {
@@ -79,12 +76,8 @@ export class SearchLayer extends VectorLayer {
 }
 
 /** The candidate that a click means, or null. @param {Scene} scene @param {OlMap} map @param {number[]} place */
-export function candidateAt(scene, map, [x, y]) {
-  const near = NEAR_PIXELS * (map.getView().getResolution() ?? 1);
-  const distance = (/** @type {{x: number, y: number}} */ at) => Math.hypot(at.x - x, at.y - y);
-  const found = [...(scene.state.plan?.candidates ?? [])].sort((a, b) => distance(a) - distance(b))[0];
-  return found && distance(found) <= near ? found : null;
-}
+export const candidateAt = (scene, map, place) =>
+  nearestPlace(scene.state.plan?.candidates ?? [], place, NEAR_PIXELS * (map.getView().getResolution() ?? 1));
 
 /** Lets the planner draw an area on the map, corner by corner, until it is closed or given up.
  * @param {OlMap} map @param {(ring: number[]) => void} take  Gets the area.

@@ -16,16 +16,15 @@ function ofTask({ state: { task, masts, turbines, target, viewpoint } }) {
 export function makeHint(scene) {
   const hint = element("hint");
   const touch = matchMedia("(pointer: coarse)");
-  const click = () => (touch.matches ? "tap" : "click");
-  const Click = () => (touch.matches ? "Tap" : "Click");
   const known = new Set(scene.state.masts.length > 0 ? ["mast"] : []);
   const text = () => {
     const { placing, task } = scene.state;
-    if (task === "sites") return placing ? `${Click()} the corners of the area, and the first one again` : "";
+    const click = touch.matches ? "Tap" : "Click";
+    if (task === "sites") return placing ? `${click} the corners of the area, and the first one again` : "";
     const { what, next, count, done } = ofTask(scene);
     if (done || count > 1) known.add(what);
-    if (placing || count === 0) return `${Click()} the map to place a ${what}`;
-    return known.has(what) ? "" : `Drag the ${what}, or ${click()} the map ${next}`;
+    if (placing || count === 0) return `${click} the map to place a ${what}`;
+    return known.has(what) ? "" : `Drag the ${what}, or ${click.toLowerCase()} the map ${next}`;
   };
   scene.on(["placing", "masts", "target", "task", "turbines", "viewpoint"], () => {
     hint.textContent = text();

@@ -6,7 +6,8 @@ import { azimuthsText, degreesText, distanceText, metresText, numberText, placeT
 import { CUT, NEAREST, VERDICT, VISIBLE } from "../seen/seen_cells.js";
 import { hueCss } from "../seen/palette.js";
 import { askPlace } from "../server/api.js";
-import { SERVICES, buildingNear } from "../state/premises.js";
+import { nearestPlace } from "../state/nearest.js";
+import { SERVICES } from "../state/premises.js";
 import { letterOf } from "../state/mast_letter.js";
 import { withUnit } from "../seen/values.js";
 import { HUBS, TIPS, modeOf, viewerOf, viewersOf } from "../seen/viewers.js";
@@ -141,7 +142,7 @@ export class Readout {
   #buildingAt(place) {
     const { task, premises } = this.scene.state;
     const within = NEAR_PIXELS * (this.map.getView().getResolution() ?? 1);
-    const building = task === "premises" && premises ? buildingNear(premises, place, within) : null;
+    const building = task === "premises" && premises ? nearestPlace(premises, place, within) : null;
     if (!building) return [];
     const text = SERVICES.find(({ service }) => service === building.service)?.text ?? building.service;
     return [[building.name, [text, building.how].filter(Boolean).join(", ")]];

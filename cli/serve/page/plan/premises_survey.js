@@ -5,7 +5,7 @@ import { countedText, numberText, shareText } from "../panel/words.js";
 import { jobOptions } from "./job_options.js";
 import { JobRun } from "./job_run.js";
 import { buildingsOf } from "../state/premises.js";
-import { mastTable, rowsIn } from "./tables.js";
+import { mastRows, mastTable, rowsIn } from "./tables.js";
 
 /** @typedef {import("../state/scene.js").Scene} Scene */
 
@@ -28,14 +28,11 @@ export function makePremisesSurvey(scene, jobs) {
     if (table) scene.change({ premises: buildingsOf(rowsIn(await (await fetch(table.url)).text())) });
   });
   run.follow(scene, ["masts", "options"], () => [
-    mastsAsked(scene.state.masts),
+    mastRows(scene.state.masts),
     jobOptions("premises", scene.state.options),
   ]);
   scene.on(["masts"], () => (button.disabled = scene.state.masts.length === 0));
 }
-
-/** What of the masts counts. @param {import("../state/scene.js").Mast[]} masts */
-const mastsAsked = (masts) => masts.map(({ name, x, y, height }) => [name, x, y, height]);
 
 /** @param {Record<string, number>} counts */
 function sumText({ all, served, on_walls, on_roofs, unserved, undecided, out_of_reach }) {

@@ -16,12 +16,11 @@ export const turbineTable = (turbines) =>
     turbines.map(({ name, x, y, hub, tip }) => [name, x, y, hub, rotorOf({ hub, tip }), tip]),
   );
 
+/** What a table has of masts. @param {import("../state/scene.js").Mast[]} masts */
+export const mastRows = (masts) => masts.map(({ name, x, y, height }) => [name, x, y, height]);
+
 /** @param {import("../state/scene.js").Mast[]} masts */
-export const mastTable = (masts) =>
-  tableOf(
-    ["name", "x", "y", "height"],
-    masts.map(({ name, x, y, height }) => [name, x, y, height]),
-  );
+export const mastTable = (masts) => tableOf(["name", "x", "y", "height"], mastRows(masts));
 
 /** The cells of a line, of which those with commas are quoted. @param {string} line */
 const cellsOf = (line) =>

@@ -1,5 +1,7 @@
 // What the modes with a value for each cell show: classes between limits, the best class first.
 
+import { modeNamed } from "../state/mode.js";
+
 /**
  * @typedef {object} ValueMode
  * @property {string} title
@@ -37,7 +39,7 @@ export const VALUE_MODES = {
 };
 
 /** The mode with values that the options ask for, or null. @param {Record<string, string>} options */
-export const valueModeOf = (options) => VALUE_MODES[options.loss ? "loss" : options.mode] ?? null;
+export const valueModeOf = (options) => VALUE_MODES[modeNamed(options)] ?? null;
 
 const MOST_BANDS = 7;
 

@@ -1,6 +1,6 @@
 // Who sees, in each task: masts, sites that were chosen, or everybody who sees turbines; and what of that the map shows.
 
-import { countingIn } from "../state/mode.js";
+import { countingIn, withMode } from "../state/mode.js";
 import { countMode, valueModeOf } from "./values.js";
 
 /** @typedef {import("../state/scene.js").SceneState} SceneState */
@@ -14,8 +14,6 @@ export const HUBS = 17;
 
 // Options that mean nothing where turbines are counted.
 const OF_MASTS = ["mode", "frequency", "fresnel", "loss", "polarisation", "vertical-error", "target-on", "observer-on"];
-// Options of which sites know nothing.
-const OF_VALUES = ["mode", "loss", "vertical-error", "polarisation"];
 
 /** The observer as the command line takes it. @param {{x: number, y: number, height: number}} mast */
 export const observerOf = ({ x, y, height }) => `${x},${y},${height}`;
@@ -27,7 +25,8 @@ const without = (options, names) =>
 /** Options of a view, as the task has them. @param {SceneState} state */
 export function optionsOf({ task, options }) {
   if (task === "turbines") return { ...without(options, OF_MASTS), mode: "count" };
-  return task === "sites" ? without(options, OF_VALUES) : countingIn(options);
+  // Sites know nothing of values.
+  return countingIn(task === "sites" ? withMode(options, "visible") : options);
 }
 
 /** Masts, or sites: what stands on the map and sees. @param {SceneState} state @returns {Mast[]} */

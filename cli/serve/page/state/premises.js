@@ -36,14 +36,3 @@ export const buildingsOf = (rows) =>
       x: Number(row.x),
       y: Number(row.y),
     }));
-
-/** The building next to a place, within a distance, or null. @param {Building[]} buildings
- * @param {number[]} place @param {number} within */
-export function buildingNear(buildings, [x, y], within) {
-  const distance = (/** @type {Building} */ building) => Math.hypot(building.x - x, building.y - y);
-  const nearest = buildings.reduce(
-    (best, building) => (best === null || distance(building) < distance(best) ? building : best),
-    /** @type {Building | null} */ (null),
-  );
-  return nearest && distance(nearest) <= within ? nearest : null;
-}
