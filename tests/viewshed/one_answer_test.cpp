@@ -284,7 +284,7 @@ TEST_F(InATown, WithFeaturesAtATolerance) {
 /// memory.
 TEST_F(InATown, WithoutSomeFeatures) {
   NoProgress progress;
-  request_.observers.front().height = 6;
+  request_.observers.front().height = 15;  // above any roof or tree
   std::vector<FeatureNumber> omitted;
   const std::vector<ThemeInfo>& themes = store_->metadata().themes;
   for (std::uint16_t theme = 1; theme <= themes.size(); ++theme)

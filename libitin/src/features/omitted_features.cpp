@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <memory>
 
@@ -10,8 +11,9 @@
 #include <itin/sort_unique.hpp>
 #include <itin/store.hpp>
 
-#include "features/footprint_extent.hpp"
-#include "store/footprint_codec.hpp"
+#include "features/features_near.hpp"
+#include "features/ranked_features.hpp"
+#include "geometry/window_over.hpp"
 #include "triangulate/omitted_tops.hpp"
 #include "triangulate/selected_tin.hpp"
 
@@ -19,81 +21,65 @@ namespace itin {
 
 namespace {
 
-Box box_beside(const FootprintFeature& feature) {
-  const Box box = extent_of(feature);
-  return {box.xmin - kBesideFootprint, box.ymin - kBesideFootprint, box.xmax + kBesideFootprint,
-          box.ymax + kBesideFootprint};
-}
+/// The vertices of a theme off outlines, and the features that each may be of: those that it touches, or else the
+/// nearest, in ascending order.
+struct TopsAndFeatures {
+  std::vector<VertexId> vertices;
+  std::vector<Position> positions;
+  std::vector<std::vector<std::int64_t>> features;
+};
 
-/// Returns the boxes of a theme's features with these numbers, which ascend.
-std::vector<Box> boxes_of(const Store& store, std::uint16_t theme, const std::vector<std::int64_t>& numbers) {
-  std::vector<Box> boxes;
-  std::uint32_t read = 0;
-  std::vector<StoredFootprint> footprints;
-  for (const std::int64_t number : numbers) {
-    const auto block = static_cast<std::uint32_t>(number / std::int64_t{kFootprintsInBlock});
-    if (footprints.empty() || block != read) footprints = stored_footprints(store, theme, read = block);
-    boxes.push_back(box_beside(footprints[static_cast<std::size_t>(number) % kFootprintsInBlock].feature));
-  }
-  return boxes;
-}
+/// How near, in grid steps, a footprint's vertex is to where it stands: outlines are rounded where they are cut at each
+/// other, too.
+constexpr double kTouching = 1.5;
 
-/// The features that a vertex may be of, by number: how high the highest of their triangles about it is, in the mean of
-/// its corners.
-using Owners = std::map<std::int64_t, double>;
-
-/// Returns the highest of the features about a vertex: where two of them touch, the wall stands in the lower one, and
-/// the party line is the other's (footprint_arrangement.hpp). Among equals it is the first one's.
-std::int64_t owner_among(const Owners& owners) {
-  return std::max_element(owners.begin(), owners.end(),
-                          [](const auto& a, const auto& b) { return a.second < b.second; })
-      ->first;
-}
-
-Point2 middle_of(const Tin& tin, const Triangle& t) {
-  const Point3 a = tin.point(t[0]), b = tin.point(t[1]), c = tin.point(t[2]);
-  return {(a.x + b.x + c.x) / 3, (a.y + b.y + c.y) / 3};
-}
-
-/// Finds the features that each vertex off outlines may be of, by the triangles about it.
-std::map<std::uint32_t, Owners> owners_of_tops(const Store& store, const Tin& tin, std::uint16_t theme,
-                                               const Progress& progress) {
-  std::vector<Triangle> triangles;
+TopsAndFeatures tops_in(const Store& store, std::uint16_t theme, const std::vector<Box>& boxes, Progress& progress) {
+  const Selection all = selection_of(store.metadata(), Detail::tolerance(0), ThemeChoice::all());
+  const Tin tin =
+      triangulate_selected(store, window_over(boxes), all.with_raised_alone(store.metadata(), theme), progress);
+  TopsAndFeatures tops;
   std::vector<Point2> places;
-  for (const Triangle& t : tin.triangles) {
-    if (tin.theme(t) != theme) continue;
-    triangles.push_back(t);
-    places.push_back(middle_of(tin, t));
+  for (std::uint32_t v = 0; v < tin.raised_theme.size(); ++v) {
+    if (tin.raised_theme[v] != theme) continue;
+    tops.vertices.push_back(tin.id(v));
+    tops.positions.push_back({tin.vertices[v].x, tin.vertices[v].y});
+    places.push_back(tin.grid.position(tin.vertices[v].x, tin.vertices[v].y));
   }
-  const auto features = features_at(store, theme, places, progress);
-  std::map<std::uint32_t, Owners> owners;
-  for (std::size_t i = 0; i < triangles.size(); ++i) {
-    if (!features[i]) continue;
-    const double height =
-        double{1} * tin.vertices[triangles[i][0]].z + tin.vertices[triangles[i][1]].z + tin.vertices[triangles[i][2]].z;
-    for (const std::uint32_t v : triangles[i]) {
-      if (tin.raised_theme[v] != theme) continue;
-      double& highest = owners[v].try_emplace(features[i]->number, height).first->second;
-      highest = std::max(highest, height);
-    }
-  }
-  return owners;
+  tops.features.resize(places.size());
+  std::vector<double> nearest(places.size(), INFINITY);
+  const double touching = kTouching * tin.grid.resolution;
+  for_each_feature_near(store, theme, places, progress,
+                        [&](std::size_t i, std::int64_t number, const FootprintFeature&, double metres) {
+                          if (metres > touching && metres >= nearest[i]) return;
+                          if (nearest[i] > touching) tops.features[i].clear();
+                          tops.features[i].push_back(number);
+                          nearest[i] = std::min(nearest[i], metres);
+                        });
+  return tops;
 }
 
 /// Finds the vertices of a theme's features with these numbers, off their outlines.
 TopsOfTheme tops_of(const Store& store, std::uint16_t theme, const std::vector<std::int64_t>& numbers,
                     Progress& progress) {
-  TopsOfTheme tops{theme, {}, boxes_of(store, theme, numbers)};
-  std::vector<Window::Polygon> parts;
-  for (const Box& box : tops.boxes) parts.push_back(Window::rectangle(box));
-  const Selection all = selection_of(store.metadata(), Detail::tolerance(0), ThemeChoice::all());
-  const Tin tin = triangulate_selected(store, Window::polygons(std::move(parts)),
-                                       all.with_raised_alone(store.metadata(), theme), progress);
-  for (const auto& [vertex, owners] : owners_of_tops(store, tin, theme, progress))
-    if (std::binary_search(numbers.begin(), numbers.end(), owner_among(owners)))
-      tops.vertices.push_back(tin.id(vertex));
-  std::sort(tops.vertices.begin(), tops.vertices.end());
-  return tops;
+  TopsOfTheme omitted{theme, {}, boxes_beside(store, theme, numbers)};
+  const TopsAndFeatures tops = tops_in(store, theme, omitted.boxes, progress);
+  const auto goes = [&](std::int64_t number) { return std::binary_search(numbers.begin(), numbers.end(), number); };
+  const auto is_doubtful = [&](const std::vector<std::int64_t>& features) {
+    return std::any_of(features.begin(), features.end(), goes) && !std::all_of(features.begin(), features.end(), goes);
+  };
+  std::vector<std::int64_t> doubtful;
+  for (const auto& features : tops.features)
+    if (is_doubtful(features)) doubtful.insert(doubtful.end(), features.begin(), features.end());
+  sort_unique(doubtful);
+  const RankedFeatures ranked(store, theme, doubtful, progress);
+  for (std::size_t i = 0; i < tops.vertices.size(); ++i) {
+    const auto& features = tops.features[i];
+    if (features.empty()) continue;
+    const std::int64_t owner = is_doubtful(features) ? ranked.owner(tops.positions[i], features) : features.front();
+    if (goes(owner)) omitted.vertices.push_back(tops.vertices[i]);
+  }
+  std::sort(omitted.vertices.begin(), omitted.vertices.end());
+  return omitted;
 }
 
 void require_raised(const StoreMetadata& metadata, std::uint16_t theme) {

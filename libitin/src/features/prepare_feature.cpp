@@ -97,10 +97,13 @@ class Preparing {
     return true;
   }
 
+  /// The rank is rounded, so that it is the same whatever else of the ground is triangulated: sums may differ in their
+  /// last digits.
   void add_patch(GridPolygons plan, const Plane& top) {
     Patch patch{std::move(plan), top, 0};
     const GridBox box = bounds_of(patch.plan);
-    patch.rank = top.at({(1.0 * box.xmin + box.xmax) / 2, (1.0 * box.ymin + box.ymax) / 2});
+    const double middle = top.at({(1.0 * box.xmin + box.xmax) / 2, (1.0 * box.ymin + box.ymax) / 2});
+    patch.rank = std::round(middle * 1024) / 1024;
     out_.feature.patches.push_back(std::move(patch));
   }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <span>
 #include <vector>
 
@@ -33,6 +34,25 @@ void for_each_footprint(const Store& store, std::uint16_t theme, const Visit& vi
 }
 
 inline constexpr std::size_t kFootprintsInBlock = 256;
+
+/// Calls visit(i, footprint) for each of these numbers that the theme has, the i-th of them; each block is read once.
+template <class Visit>
+void for_each_footprint_numbered(const Store& store, std::uint16_t theme, const std::vector<std::int64_t>& numbers,
+                                 const Visit& visit) {
+  const std::uint32_t blocks = store.metadata().themes[theme - std::size_t{1}].footprint_blocks;
+  std::map<std::uint32_t, std::vector<std::size_t>> wanted;  // places among the numbers, by block
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    const std::uint64_t block = static_cast<std::uint64_t>(numbers[i]) / kFootprintsInBlock;
+    if (numbers[i] >= 0 && block < blocks) wanted[static_cast<std::uint32_t>(block)].push_back(i);
+  }
+  for (const auto& [block, places] : wanted) {
+    const std::vector<StoredFootprint> footprints = stored_footprints(store, theme, block);
+    for (const std::size_t i : places) {
+      const std::size_t place = static_cast<std::size_t>(numbers[i]) % kFootprintsInBlock;
+      if (place < footprints.size()) visit(i, footprints[place]);
+    }
+  }
+}
 
 std::vector<std::uint8_t> encode_footprints(std::span<const StoredFootprint> footprints);
 /// Returns the bytes of one feature, without its source and not compressed. They order features independently of the

@@ -9,6 +9,7 @@
 #include <itin/tin_heights.hpp>
 
 #include "base/stoppable.hpp"
+#include "geometry/window_over.hpp"
 #include "triangulate/omitted_tops.hpp"
 #include "triangulate/opened_region.hpp"
 #include "triangulate/raised_index.hpp"
@@ -25,9 +26,9 @@ constexpr double kBesideEdge = 1.5;
 constexpr int kStepsBesideEdge = 2;
 
 Window window_over(const std::vector<GridBox>& boxes, const Grid& grid) {
-  std::vector<Window::Polygon> parts;
-  for (const GridBox& box : boxes) parts.push_back(Window::rectangle(grid.box(box)));
-  return Window::polygons(std::move(parts));
+  std::vector<Box> in_metres;
+  for (const GridBox& box : boxes) in_metres.push_back(grid.box(box));
+  return itin::window_over(in_metres);
 }
 
 std::vector<GridBox> boxes_of(const std::vector<TopsOfTheme>& tops, const Grid& grid) {

@@ -15,6 +15,8 @@
 #include <itin/silent_progress.hpp>
 #include <itin/tin_heights.hpp>
 
+#include "geometry/window_over.hpp"
+
 namespace itin {
 
 namespace {
@@ -89,9 +91,9 @@ std::vector<std::span<Place>> groups_of(std::span<Place> places, const StoreMeta
 }
 
 Window window_about(std::span<const Place> places, const std::vector<Point2>& positions, const Grid& grid) {
-  std::vector<Window::Polygon> boxes;
-  for (const Place& place : places) boxes.push_back(Window::rectangle(surroundings(positions[place.index], grid)));
-  return Window::polygons(std::move(boxes));
+  std::vector<Box> boxes;
+  for (const Place& place : places) boxes.push_back(surroundings(positions[place.index], grid));
+  return window_over(boxes);
 }
 
 /// Finds the heights of many places on one Tin: the places are halved again and again, and each half looks only at

@@ -4,6 +4,21 @@
 
 namespace itin::viewshed {
 
+void cast_packet(RTCScene scene, const std::array<int, SightLines::kSize>& valid, RayContext& context, RTCRay16& rays) {
+#if ITIN_EMBREE_MAJOR >= 4
+  rtcInitRayQueryContext(&context);
+  RTCOccludedArguments arguments;
+  rtcInitOccludedArguments(&arguments);
+  arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
+  arguments.context = &context;
+  rtcOccluded16(valid.data(), scene, &rays, &arguments);
+#else
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  rtcOccluded16(valid.data(), scene, &context, &rays);
+#endif
+}
+
 BoxTree::BoxTree(std::uint32_t boxes, void* owner, const Functions& functions) : device_(rtcNewDevice(nullptr)) {
   if (!device_) throw std::bad_alloc();
   scene_.reset(rtcNewScene(device_.get()));
@@ -20,21 +35,6 @@ BoxTree::BoxTree(std::uint32_t boxes, void* owner, const Functions& functions) :
   rtcSetSceneBuildQuality(scene_.get(), RTC_BUILD_QUALITY_LOW);
   rtcCommitScene(scene_.get());
   if (rtcGetDeviceError(device_.get()) != RTC_ERROR_NONE) throw std::bad_alloc();
-}
-
-void BoxTree::cast(const std::array<int, SightLines::kSize>& valid, RayContext& context, RTCRay16& rays) const {
-#if ITIN_EMBREE_MAJOR >= 4
-  rtcInitRayQueryContext(&context);
-  RTCOccludedArguments arguments;
-  rtcInitOccludedArguments(&arguments);
-  arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
-  arguments.context = &context;
-  rtcOccluded16(valid.data(), scene_.get(), &rays, &arguments);
-#else
-  rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  rtcOccluded16(valid.data(), scene_.get(), &context, &rays);
-#endif
 }
 
 }  // namespace itin::viewshed

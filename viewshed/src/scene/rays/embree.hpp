@@ -24,6 +24,10 @@ using RayContext = RTCRayQueryContext;
 using RayContext = RTCIntersectContext;
 #endif
 
+/// Casts the rays of a packet whose `valid` is -1 at a scene. `context` is the first member of what the scene's own
+/// functions see.
+void cast_packet(RTCScene scene, const std::array<int, SightLines::kSize>& valid, RayContext& context, RTCRay16& rays);
+
 class BoxTree {
  public:
   /// What is called with `owner` as geometryUserPtr: for the bounds of each box, and for the rays that may meet one.
@@ -34,8 +38,9 @@ class BoxTree {
   /// Makes a tree of `boxes` boxes. Throws std::bad_alloc.
   BoxTree(std::uint32_t boxes, void* owner, const Functions& functions);
 
-  /// Casts the rays whose `valid` is -1. `context` is the first member of what `Functions::occluded` sees.
-  void cast(const std::array<int, SightLines::kSize>& valid, RayContext& context, RTCRay16& rays) const;
+  void cast(const std::array<int, SightLines::kSize>& valid, RayContext& context, RTCRay16& rays) const {
+    cast_packet(scene_.get(), valid, context, rays);
+  }
 
  private:
   struct DeviceRelease {
