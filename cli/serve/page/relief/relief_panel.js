@@ -84,6 +84,7 @@ class ReliefPanel {
 
   async #open() {
     this.#panel.hidden = false;
+    this.#panel.append(element("legend"));
     this.#said.textContent = "Loading the ground …";
     try {
       const state = this.scene.state;
@@ -110,6 +111,7 @@ class ReliefPanel {
     this.#relief?.end();
     this.#relief = null;
     this.#panel.hidden = true;
+    element("map").append(element("legend"));
     element("relief-button").focus();
   }
 
