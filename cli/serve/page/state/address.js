@@ -5,6 +5,7 @@
 // What is not about the page itself is an option of the command line under its own name.
 
 import { FIRST_SITING, isMoved } from "./plan.js";
+import { SERVED_KINDS, servedOf } from "./served.js";
 import { MOST_TURBINES } from "./turbines.js";
 
 /** @typedef {import("./scene.js").SceneState} SceneState */
@@ -63,14 +64,21 @@ function addPlans({ turbines, part, viewpoint, search, served, siting, plan }, f
   if (part !== "tips") fields.set("part", part);
   if (viewpoint) fields.set("viewpoint", `${viewpoint.x},${viewpoint.y}`);
   if (search && "ring" in search) fields.set("area", search.ring.join(","));
-  if (search && "upload" in search) fields.set("candidates", `${search.upload},${search.file}`);
-  if (served.kind === "area" && served.ring) fields.set("served", served.ring.join(","));
-  if (served.kind === "places" && served.upload) fields.set("served", `${served.upload},${served.file}`);
-  if (served.kind === "view" || served.kind === "premises") fields.set("served", served.kind);
+  if (search && "upload" in search) fields.set("candidates", fileText(search));
+  if (served.kind !== "reach") fields.set("served", servedText(served));
   for (const [name, field] of SITING) if (siting[field] !== FIRST_SITING[field]) fields.set(name, siting[field]);
   if (!plan) return;
   fields.set("choice", plan.job.id);
   plan.sites.forEach((site, i) => isMoved(site) && fields.append("site", [i, site.x, site.y].join(",")));
+}
+
+/** A file that was sent: the server's name for it, and the planner's. @param {{upload: string, file: string}} sent */
+const fileText = ({ upload, file }) => `${upload},${file}`;
+
+/** An area, a file, or the word for either where it is not there yet. @param {import("./served.js").Served} served */
+function servedText(served) {
+  if (served.kind === "area" && served.ring) return served.ring.join(",");
+  return served.kind === "places" && served.upload ? fileText(served) : served.kind;
 }
 
 /** @param {string} text @param {number} count @returns {number[] | null} that many numbers, or null */
@@ -111,7 +119,8 @@ function readFile(text) {
 
 /** @param {string} text @returns {import("./served.js").Served} */
 function readServed(text) {
-  if (text === "view" || text === "premises") return { kind: text };
+  const kind = SERVED_KINDS.find((some) => some === text);
+  if (kind) return servedOf(kind);
   const file = readFile(text);
   if (file) return { kind: "places", ...file };
   const area = readArea(text);
