@@ -111,7 +111,7 @@ test("what was done by mistake is taken back, by keys and by buttons", async () 
   await closed(page);
 });
 
-test("a number counts while it is typed, and a button shows the whole map", async () => {
+test("a number counts while it is typed", async () => {
   const page = await pageWithMast();
   const dropped = await mastAt(page);
   const type = async (selector, typed) => {
@@ -132,7 +132,11 @@ test("a number counts while it is typed, and a button shows the whole map", asyn
     {},
     dropped.x + 300,
   );
+  await closed(page);
+});
 
+test("a button shows the whole map", async () => {
+  const page = await openPage(world.browser, world.hills.address);
   const where = () => new URLSearchParams(new URL(page.url()).hash.slice(1)).get("at");
   await page.waitForFunction(() => location.hash.includes("&at="));
   const whole = where();
