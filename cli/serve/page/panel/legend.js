@@ -142,7 +142,7 @@ const premisesEntries = (buildings) =>
 const holds = (sources, verdict) => sources.some(({ cells }) => cells.verdicts & (1 << verdict));
 
 /** @param {Entry} entry */
-function entryElement([colours, text, opacity = 0.65]) {
+export function entryElement([colours, text, opacity = 0.65]) {
   const item = make("li");
   const swatches = [colours].flat().map((colour) => {
     const swatch = make("span", "swatch");
