@@ -19,6 +19,10 @@ void ObserverOptions::declare(CLI::App& app) {
       ->type_name("x,y[,h]")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  app.add_option("--observer-name", names_, "The name of an observer; as many as there are of --observer")
+      ->type_name("NAME")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   reads(app.add_option("--observers", sites_.path,
                        "Observers from a vector file, or from CSV with columns x,y or lon,lat")
             ->type_name("FILE"));
@@ -44,6 +48,9 @@ void ObserverOptions::validate() {
     throw InputError("give observers by --observer x,y,h or by --observers FILE");
   if (!observers_.empty() && !sites_.path.empty())
     throw InputError("--observer and --observers exclude each other; give all observers in one way");
+  if (!names_.empty() && names_.size() != observers_.size())
+    throw InputError(fmt::format("--observer-name: {} given for {} of --observer; give one for each", names_.size(),
+                                 observers_.size()));
   if (sites_.path.empty()) {
     const auto refuse = [](const std::string& value, const char* option) {
       if (!value.empty()) throw InputError(fmt::format("{} works only with --observers", option));
@@ -108,8 +115,9 @@ std::vector<viewshed::Observer> ObserverOptions::observers_given(const StoreMeta
   std::vector<viewshed::Observer> observers;
   for (std::size_t i = 0; i < given_.size(); ++i) {
     const std::string what = fmt::format("--observer '{}'", observers_[i]);
-    observers.push_back({fmt::format("{}", i + 1), on_the_data(what, given_[i], in_crs_, metadata),
-                         given_[i].height.value_or(height_), absolute()});
+    observers.push_back({names_.empty() ? fmt::format("{}", i + 1) : names_[i],
+                         on_the_data(what, given_[i], in_crs_, metadata), given_[i].height.value_or(height_),
+                         absolute()});
   }
   return observers;
 }

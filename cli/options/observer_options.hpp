@@ -45,7 +45,7 @@ class ObserverOptions {
   double height_of(const std::string& where, std::optional<double> own) const;
   bool absolute() const { return absolute_heights_ || absolute_; }
 
-  std::vector<std::string> observers_;
+  std::vector<std::string> observers_, names_;
   SiteQuery sites_;
   std::string height_text_;
   std::string observer_on_ = "ground";

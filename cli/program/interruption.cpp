@@ -24,6 +24,7 @@ static_assert(std::atomic<long long>::is_always_lock_free, "a signal handler may
 sem_t signalled;
 /// Set by the thread that ends the program, whether by itself or not.
 std::atomic<bool> ending{false};
+std::atomic<bool> end_is_expected{false};
 
 /// The time that a call has to stop and clean up. It is less than a second, for the system takes about that long to
 /// take back gigabytes.
@@ -42,14 +43,6 @@ extern "C" void note_interruption(int) {
   } else if (milliseconds - none > kPatience) {
     _exit(kInterruptedStatus);
   }
-}
-
-/// Says that the program was interrupted, but not by a stream: the thread that holds its lock may be the one that does
-/// not stop.
-void say_interrupted() {
-  const std::string wipe_progress = isatty(STDERR_FILENO) != 0 ? "\r\x1b[K" : "";
-  const std::string line = wipe_progress + "itin: error: " + Cancelled().what() + "\n";
-  [[maybe_unused]] const ssize_t ignored = ::write(STDERR_FILENO, line.data(), line.size());
 }
 
 void end_what_does_not_stop() {
@@ -85,6 +78,19 @@ void catch_interruptions() {
 
 bool interrupted() {
   return first_signal.load(std::memory_order_relaxed) != 0;
+}
+
+void expect_interruption() {
+  end_is_expected = true;
+}
+
+/// This does not write by a stream: the thread that holds its lock may be the one that does not stop. On a terminal the
+/// prompt that follows begins a line, behind the ^C that was typed.
+void say_interrupted() {
+  const bool terminal = isatty(STDERR_FILENO) != 0;
+  std::string line = terminal ? "\n" : "";
+  if (!end_is_expected) line = (terminal ? "\r\x1b[K" : "") + std::string("itin: error: ") + Cancelled().what() + "\n";
+  [[maybe_unused]] const ssize_t ignored = ::write(STDERR_FILENO, line.data(), line.size());
 }
 
 void end_interruptions() {

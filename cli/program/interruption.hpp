@@ -15,6 +15,12 @@ void catch_interruptions();
 
 bool interrupted();
 
+/// Declares that an interruption is how this call is meant to end, so that say_interrupted() tells of no error.
+void expect_interruption();
+
+/// Says that the program was interrupted.
+void say_interrupted();
+
 /// Declares that the program has come to its end, and is not interrupted any more; to be called once, before its last
 /// line. Does not return where the program is being ended already.
 void end_interruptions();

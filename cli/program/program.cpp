@@ -148,8 +148,10 @@ int run(int argc, char** argv) {
     parse_and_run({argv + 1, argv + argc});
     end_interruptions();
     return kDone;
-  } catch (const Cancelled& error) {
-    return report(error.what(), kInterrupted);
+  } catch (const Cancelled&) {
+    end_interruptions();
+    say_interrupted();
+    return kInterrupted;
   } catch (const viewshed::JobError& error) {
     return report(error.what(), static_cast<Status>(error.end()));
   } catch (const InputError& error) {

@@ -91,11 +91,11 @@ JobCall job_call(const ServedStore& served, const Uploads& uploads, const Docume
                  int threads) {
   if (!asked.is_object() || !asked.contains("verb") || !asked["verb"].is_string())
     throw InputError("send {\"verb\": NAME, \"options\": {...}}");
-  JobCall call{asked["verb"].get<std::string>(), {}, {}, {}};
+  JobCall call{asked["verb"].get<std::string>(), asked.value("options", Document::object()), {}, {}, {}};
   const std::unique_ptr<Verb> verb = make_job_verb(call.verb);
   CLI::App app;
   verb->declare(app);
-  const std::vector<std::string> arguments = call_of(served, arguments_of(asked.value("options", Document::object())));
+  const std::vector<std::string> arguments = call_of(served, arguments_of(call.options));
   take_arguments(app, arguments);
   refuse_parameter_files(app);
   call.uploads = own_files(app, uploads);

@@ -14,6 +14,7 @@ namespace itin::cli {
 
 struct JobCall {
   std::string verb;
+  Document options;                       ///< as they were asked for
   std::vector<std::string> arguments;     ///< from the verb on, for a program that runs in the folder of its outputs
   std::string command;                    ///< what a person would type
   std::vector<std::string> uploads = {};  ///< names of uploads that it reads, in the folder of its outputs

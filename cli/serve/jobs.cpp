@@ -83,6 +83,7 @@ std::optional<Document> Jobs::state(const std::string& id) const {
   if (!job) return std::nullopt;
   Document document{{"id", job->id}, {"verb", job->call.verb}, {"state", kStateNames[static_cast<int>(job->state)]}};
   document.update(job->progress);
+  document["options"] = job->call.options;
   document["command"] = job->call.command;
   document["error"] = job->error.empty() ? Document(nullptr) : Document(job->error);
   document["document"] = job->document;

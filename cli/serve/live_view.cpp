@@ -12,6 +12,7 @@
 
 #include <itin/error.hpp>
 #include <viewshed/documents.hpp>
+#include <viewshed/hidden_eyes.hpp>
 #include <viewshed/missing_ground.hpp>
 #include <viewshed/result_raster.hpp>
 
@@ -50,6 +51,15 @@ std::string command_of(const ServedStore& served, const Document& options) {
   return command_line(words);
 }
 
+/// What the only observer stands within, where it stands on the ground.
+Document within_document(const Store& store, const viewshed::Result& result) {
+  const viewshed::Request& request = result.request;
+  if (request.observers.size() != 1 || request.observers_on_surface) return nullptr;
+  const auto cover = viewshed::cover_at(store, request.observers.front().position, request.detail, request.themes);
+  if (!cover) return nullptr;
+  return {{"theme", cover->theme}, {"top_m", cover->top - result.ground_m.front()}};
+}
+
 Document done_document(const ServedStore& served, const LiveNumber& number, const ViewOptions& view,
                        const viewshed::Result& result, std::vector<std::string> warnings, Progress& progress) {
   const viewshed::MissingGround missing = viewshed::missing_ground(served.store(), result, progress);
@@ -60,6 +70,7 @@ Document done_document(const ServedStore& served, const LiveNumber& number, cons
   for (const char* name : {"surface", "refraction", "grid", "cells", "area_m2", "share_without_data"})
     done[name] = std::move(found[name]);
   done["ground_m"] = result.ground_m;
+  done["within"] = within_document(served.store(), result);
   done["warnings"] = std::move(warnings);
   return done;
 }

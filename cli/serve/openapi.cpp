@@ -115,6 +115,7 @@ Document openapi_document() {
       {"/tin.glb", "The triangulation of a window as glTF", "model/gltf-binary", {"bbox"}},
       {"/tiles/heights/{z}/{x}/{y}", "Heights of the ground as float32", "application/octet-stream", {}},
       {"/tiles/theme/{name}/{z}/{x}/{y}", "Outlines of a theme's buildings", kJson, {}},
+      {"/api/v1/uploads/{name}", "The places in a file that was sent", kJson, {}},
       {"/api/v1/jobs/{id}", "How far a job is", kJson, {}},
       {"/api/v1/jobs/{id}/{file}", "A file that a job has written", "application/octet-stream", {}}};
   Document paths = Document::object();

@@ -1,6 +1,7 @@
 // itin read-upload: what the server calls to read a file that a client has sent. It tells the places or the polygons in
 // it, in the store's CRS, and what is wrong with it. It gives itself little memory and time first.
 
+#include <algorithm>
 #include <sys/resource.h>
 
 #include <fmt/format.h>
@@ -13,6 +14,7 @@
 #include <itin/window_source.hpp>
 
 #include "options/memory_option.hpp"
+#include "options/off_the_data.hpp"
 #include "program/call_files.hpp"
 #include "program/verb.hpp"
 
@@ -24,6 +26,7 @@ namespace {
 constexpr std::uint64_t kProgramBytes = std::uint64_t{256} << 20;
 constexpr rlim_t kMostSeconds = 20;
 constexpr std::size_t kMostPlaces = 10000;
+constexpr std::size_t kMostNamed = 3;
 constexpr const char* kName = "name";
 constexpr const char* kFields[] = {"height", "hub_height", "rotor_diameter", "tip_height"};
 
@@ -60,6 +63,14 @@ Document rings_of(const Window& window) {
   return rings;
 }
 
+/// Tells of rows that cannot be used, the first few of them by name.
+std::string unusable_text(const std::vector<std::string>& rows) {
+  std::string text = rows.size() == 1 ? "1 row cannot be used" : fmt::format("{} rows cannot be used", rows.size());
+  for (std::size_t i = 0; i < std::min(rows.size(), kMostNamed); ++i) text += (i == 0 ? ": " : "; ") + rows[i];
+  if (rows.size() > kMostNamed) text += fmt::format("; and {} more", rows.size() - kMostNamed);
+  return text;
+}
+
 class ReadUploadVerb final : public Verb {
  public:
   std::string name() const override { return "read-upload"; }
@@ -79,30 +90,39 @@ class ReadUploadVerb final : public Verb {
     if (kLimitsMemory && memory_.bytes()) limit(RLIMIT_DATA, *memory_.bytes() + kProgramBytes);
     const Store store(store_);
     Result result;
-    read(store.metadata().crs_wkt, result);
+    read(store.metadata(), result);
     return result;
   }
 
  private:
-  void read(const std::string& crs_wkt, Result& result) {
+  void read(const StoreMetadata& metadata, Result& result) {
     SiteQuery query;
     query.path = file_;
     std::vector<SiteField> fields{{kName}};
     for (const char* field : kFields) fields.push_back({field});
     Document places = Document::array();
-    std::string bad;
-    const std::vector<SiteRow> rows = read_site_rows(query, fields, crs_wkt, result.warnings);
+    std::vector<std::string> unusable;
+    bool any_off = false;
+    const std::vector<SiteRow> rows = read_site_rows(query, fields, metadata.crs_wkt, result.warnings);
     for (const SiteRow& row : rows) {
-      if (!row.position && bad.empty()) bad = fmt::format("{}: {}", row.place, row.error);
-      if (row.position && places.size() < kMostPlaces) places.push_back(place_document(row));
+      const auto off = row.position ? off_the_data(*row.position, {}, metadata) : std::nullopt;
+      any_off = any_off || off;
+      if (!row.position || off)
+        unusable.push_back(fmt::format("{}: {}", row.place, off.value_or(row.error)));
+      else if (places.size() < kMostPlaces)
+        places.push_back(place_document(row));
     }
-    result.document = {{"rows", rows.size()}, {"places", places}, {"rings", Document::array()}};
-    if (places.empty()) result.document["rings"] = rings(crs_wkt);
     if (rows.empty()) throw InputError(fmt::format("{}: holds nothing", file_));
-    // GeoJSON may have lines, such as roads.
-    const bool found = !places.empty() || ending_of(file_) == ".geojson";
-    if (!found) throw InputError(fmt::format("{}: {}", file_, bad));
-    if (!places.empty() && !bad.empty()) result.warnings.push_back(bad);
+    // GeoJSON may have lines, such as roads, and polygons.
+    if (places.empty() && (any_off || ending_of(file_) != ".geojson"))
+      throw InputError(fmt::format("{}: {}", file_, unusable.front()));
+    result.document = {{"rows", rows.size()}, {"unusable", 0}, {"places", places}, {"rings", Document::array()}};
+    if (places.empty()) {
+      result.document["rings"] = rings(metadata.crs_wkt);
+    } else if (!unusable.empty()) {
+      result.document["unusable"] = unusable.size();
+      result.warnings.push_back(unusable_text(unusable));
+    }
   }
 
   /// The outlines of the polygons in the file; none where it has none.

@@ -94,7 +94,7 @@ HttpResponse Routes::routed(const HttpRequest& request) {
   if (const auto path = behind(request.path, std::string(kJobsPath) + "/")) return job(request, *path);
   if (request.path == kUploadsPath)
     return request.method == "POST" ? upload(request) : http_failure(405, "files are sent by POST");
-  if (const auto name = behind(request.path, std::string(kUploadsPath) + "/")) return remove_upload(request, *name);
+  if (const auto name = behind(request.path, std::string(kUploadsPath) + "/")) return sent_upload(request, *name);
   if (request.method != "GET") return http_failure(405, "this is for GET alone");
   return get(request);
 }
@@ -141,8 +141,12 @@ HttpResponse Routes::upload(const HttpRequest& request) {
   return json_answer(uploads_.add(*upload_ending(request.content_type), request.body), 201);
 }
 
-HttpResponse Routes::remove_upload(const HttpRequest& request, const std::string& name) {
-  if (request.method != "DELETE") return http_failure(405, "an upload is removed by DELETE");
+HttpResponse Routes::sent_upload(const HttpRequest& request, const std::string& name) {
+  if (request.method == "GET") {
+    const auto told = uploads_.told(name);
+    return told ? json_answer(*told) : not_found(request.path);
+  }
+  if (request.method != "DELETE") return http_failure(405, "an upload is asked about by GET, and removed by DELETE");
   return uploads_.remove(name) ? json_answer(Document::object()) : not_found(request.path);
 }
 

@@ -31,7 +31,7 @@ class Routes final : public HttpHandler {
   HttpResponse window(const HttpQuery& query);
   HttpResponse tile(const std::string& path, bool may_be_kept);
   HttpResponse upload(const HttpRequest& request);
-  HttpResponse remove_upload(const HttpRequest& request, const std::string& name);
+  HttpResponse sent_upload(const HttpRequest& request, const std::string& name);
   HttpResponse start_job(const HttpRequest& request);
   HttpResponse job(const HttpRequest& request, const std::string& path);
   HttpResponse job_file(const std::string& id, const std::string& name) const;

@@ -15,6 +15,7 @@
 #include "options/memory_option.hpp"
 #include "program/call_files.hpp"
 #include "program/help.hpp"
+#include "program/interruption.hpp"
 #include "program/values.hpp"
 #include "program/verb.hpp"
 #include "serve/admission.hpp"
@@ -93,6 +94,7 @@ class ServeVerb final : public Verb {
     const std::string url = admission.url();
     Routes routes(served, std::move(admission), std::max(1, thread_count() / 2), progress);
     rasters.wait();
+    expect_interruption();
     std::cout << url << std::endl;
     if (open_) open_in_browser(url);
     server.run(routes, progress);

@@ -11,6 +11,7 @@
 #include <itin/output_file.hpp>
 #include <itin/unfinished.hpp>
 
+#include "serve/admission.hpp"
 #include "serve/child_process.hpp"
 #include "serve/given_options.hpp"
 
@@ -39,22 +40,21 @@ std::optional<std::string> upload_ending(std::string_view content_type) {
 }
 
 Document Uploads::add(const std::string& ending, std::string_view bytes) {
-  std::string name;
-  {
-    const std::lock_guard lock(mutex_);
-    name = fmt::format("upload-{}{}", ++count_, ending);
-  }
+  const std::string name = fmt::format("upload-{}{}", random_key(), ending);
   Unfinished file(path(name).string());
   write_file(file.path(), bytes, false);
-  Document document{{"name", name}, {"bytes", bytes.size()}};
-  document.update(read(name));
+  Document document = read(name);
   file.finish([&] { keep(name); });
   return document;
 }
 
-/// What the child that reads a file says of it.
+std::optional<Document> Uploads::told(const std::string& name) const {
+  if (!has(name)) return std::nullopt;
+  return read(name);
+}
+
 Document Uploads::read(const std::string& name) const {
-  const Unfinished answer(path(name + ".read").string());
+  const Unfinished answer(path(fmt::format("{}.{}", name, random_key())).string());
   std::vector<std::string> arguments = call_of(
       served_, {name, fmt::format("--memory={}", served_.memory_bytes() / 4), "--json", "--quiet", "--uploads"});
   arguments.insert(arguments.begin(), "read-upload");
@@ -63,8 +63,10 @@ Document Uploads::read(const std::string& name) const {
   if (status != 0)
     throw InputError(error.empty() ? name + ": takes too much memory or time to read; send a smaller file" : error);
   std::ifstream output(answer.path());
-  Document document = Document::parse(output, nullptr, false);
-  if (!document.is_object()) throw FileError(answer.path(), "could not be written; is the disk full?");
+  const Document said = Document::parse(output, nullptr, false);
+  if (!said.is_object()) throw FileError(answer.path(), "could not be written; is the disk full?");
+  Document document{{"name", name}};
+  document.update(said);
   for (const char* of_the_call : {"itin", "command", "statistics"}) document.erase(of_the_call);
   return document;
 }

@@ -72,6 +72,81 @@ test("the keyboard alone places, moves and removes masts", async () => {
   await closed(page);
 });
 
+test("what was done by mistake is taken back, by keys and by buttons", async () => {
+  const page = await pageWithMast();
+  const dropped = await mastAt(page);
+  await page.mouse.move(MIDDLE.x, MIDDLE.y);
+  await page.mouse.down();
+  await page.mouse.move(MIDDLE.x + 40, MIDDLE.y, { steps: 5 });
+  await page.mouse.up();
+  const dragged = await mastAt(page);
+  assert.notDeepEqual(dragged, dropped);
+  await page.keyboard.press("Delete");
+  await page.waitForFunction(() => !document.querySelector(".mast"));
+  const chord = async (...keys) => {
+    for (const key of keys.slice(0, -1)) await page.keyboard.down(key);
+    await page.keyboard.press(keys.at(-1));
+    for (const key of keys.slice(0, -1)) await page.keyboard.up(key);
+  };
+  await chord("Control", "z");
+  await settled(page);
+  assert.deepEqual(await mastAt(page), dragged);
+  await assertSummary(page, dragged);
+  await chord("Control", "z");
+  assert.deepEqual(await mastAt(page), dropped);
+  await page.click("#undo");
+  await page.waitForFunction(() => !document.querySelector(".mast") && document.querySelector("#undo").disabled);
+  for (let i = 0; i < 2; ++i) await page.click("#redo");
+  assert.deepEqual(await mastAt(page), dragged);
+  await chord("Control", "Shift", "z");
+  await page.waitForFunction(() => !document.querySelector(".mast") && document.querySelector("#redo").disabled);
+  await page.click("#undo");
+  // In a field these keys are the text's own, which counts.
+  const height = await page.$(".mast.selected .field-height input");
+  await height.click({ clickCount: 3 });
+  await page.keyboard.type("70");
+  await page.waitForFunction(() => document.querySelector("#command").textContent.includes(",70 "));
+  await chord("Control", "z");
+  await page.waitForFunction(() => document.querySelector("#command").textContent.includes(",20 "));
+  await closed(page);
+});
+
+test("a number counts while it is typed", async () => {
+  const page = await pageWithMast();
+  const dropped = await mastAt(page);
+  const type = async (selector, typed) => {
+    await (await page.$(selector)).click({ clickCount: 3 });
+    await page.keyboard.type(typed);
+  };
+  await type(".mast.selected .field-height input", "62");
+  await page.waitForFunction(() => document.querySelector("#command").textContent.includes(",62 "));
+  await type("[name=radius]", "3000");
+  await page.waitForFunction(() => document.querySelector("#command").textContent.includes("--radius=3000 "));
+  // A place that is half typed moves nothing: it counts once the field is left.
+  await type(".mast.selected .field-x input", String(dropped.x + 300));
+  await new Promise((resume) => setTimeout(resume, 600));
+  assert.ok((await text(page, "#command")).includes(`${dropped.x},`));
+  await page.mouse.click(MIDDLE.x + 150, MIDDLE.y);
+  await page.waitForFunction(
+    (x) => document.querySelector("#command").textContent.includes(`${x},`),
+    {},
+    dropped.x + 300,
+  );
+  await closed(page);
+});
+
+test("a button shows the whole map", async () => {
+  const page = await openPage(world.browser, world.hills.address);
+  const where = () => new URLSearchParams(new URL(page.url()).hash.slice(1)).get("at");
+  await page.waitForFunction(() => location.hash.includes("&at="));
+  const whole = where();
+  await page.click(".ol-zoom-in");
+  await until(() => where() !== whole, "the map is nearer");
+  await page.click("#whole-map");
+  await until(() => where() === whole, "the map is shown whole");
+  await closed(page);
+});
+
 test("a finger places and drags a mast on a phone", async () => {
   const page = await openPage(world.browser, world.hills.address, { width: 390 });
   await page.touchscreen.tap(195, 300);
@@ -136,6 +211,20 @@ test("several masts are shown together, alone and as a difference", async () => 
   assert.match(await seen(), /^Mast B alone adds /);
   await page.$eval("#masts .mast:first-child .mast-head", (head) => head.click());
   assert.match(await text(page, "#legend-list"), /only from Mast A/);
+  const mixtures = async () => {
+    await page.$eval("#show input[value=together]", (input) => input.click());
+    await settled(page);
+    return page.$$eval("#legend-list li", (all) =>
+      all.map((item) => [item.querySelectorAll(".swatch").length, item.textContent]).slice(-4),
+    );
+  };
+  assert.deepEqual((await mixtures()).at(-1), [1, "from both"]);
+  await page.mouse.click(MIDDLE.x - 60, MIDDLE.y + 40, { button: "right" });
+  const three = ["from A and B", "from A and C", "from B and C", "from all"].map((words) => [1, words]);
+  assert.deepEqual(await mixtures(), three);
+  await page.mouse.click(MIDDLE.x - 60, MIDDLE.y - 60, { button: "right" });
+  assert.deepEqual((await mixtures()).at(-1), [6, "mixtures: from several"]);
+  await keepPicture(page, "mixtures");
   await closed(page);
 });
 
@@ -158,6 +247,9 @@ test("places are typed as the command line takes them, and what it cannot read i
     await until(async () => (await mastAt(page)).x === x, typed);
   }
   assert.equal((await mastAt(page)).h, 35);
+  await page.$eval("#place-name", (input) => (input.value = "Ridge, north"));
+  await add("313000,184000");
+  await until(async () => (await text(page, ".mast.selected .mast-name")) === "Ridge  north", "it has its name");
   await add("nowhere");
   await page.waitForFunction(() => document.querySelector("#place-problem").textContent.includes("nowhere"));
   page.troubles.length = 0; // the browser notes the answer 400
@@ -167,7 +259,9 @@ test("places are typed as the command line takes them, and what it cannot read i
   await setField(page, "[name=radius]", "50000");
   await setField(page, "[name=cell]", "1");
   await page.waitForFunction(() =>
-    document.querySelector(".mast-summary.problem")?.textContent.includes("20 m or more"),
+    document
+      .querySelector(".mast-summary.problem")
+      ?.textContent.includes("take a radius of 2500 m or less, or a cell of 20 m or more"),
   );
   await keepPicture(page, "too-many-cells");
   await setField(page, "[name=cell]", "50");

@@ -2,12 +2,13 @@
 import assert from "node:assert/strict";
 import test from "node:test";
 
-import { module } from "./page_modules.mjs";
+import { module, numbers } from "./page_modules.mjs";
 
 const { VALUE_MODES, classOf, className } = await module("seen/values");
 const { addressOf, readAddress } = await module("state/address");
 const { letterOf } = await module("state/mast_letter");
 const { countingIn, modeNamed, neededIn, withMode } = await module("state/mode");
+const { History } = await module("state/history");
 const { Scene } = await module("state/scene");
 const { firstState } = await module("state/first_state");
 const { relief } = await module("map/shade");
@@ -92,6 +93,50 @@ test("a line to a mast follows it, and ends with it", () => {
       [1, 1, "Mast B"],
     ],
   );
+});
+
+test("gestures are taken back one by one, and done again until something else is done", () => {
+  const random = numbers(Number(process.env.ITIN_TEST_SEED ?? 7));
+  for (let run = 0; run < 20; ++run) {
+    const scene = new Scene(firstState(INFO));
+    const history = new History(scene);
+    const now = () => JSON.stringify([scene.state.masts, scene.state.options]);
+    // All that was planned, one after the other, and which of these it is now.
+    let planned = [now()];
+    let at = 0;
+    const gestures = [
+      () => scene.addMast({ x: random(1000), y: random(1000) }),
+      () => {
+        // A drag is one gesture of many changes.
+        const id = scene.state.selected ?? 0;
+        for (let i = 0; i < 3; ++i) scene.changeMast(id, { x: random(1000) });
+      },
+      () => scene.state.selected !== null && scene.removeMast(scene.state.selected),
+      () => scene.setOption("target-height", String(random(50))),
+      () => scene.change({ view: { x: random(9), y: 0, resolution: 1 } }), // no step: nothing is planned by it
+    ];
+    for (let step = 0; step < 60; ++step) {
+      const what = random(8);
+      if (what === 6) {
+        assert.equal(history.canUndo, at > 0);
+        history.undo();
+        at = Math.max(0, at - 1);
+      } else if (what === 7) {
+        assert.equal(history.canRedo, at < planned.length - 1);
+        history.redo();
+        at = Math.min(planned.length - 1, at + 1);
+      } else {
+        history.begin();
+        const before = scene.state;
+        gestures[what % gestures.length]();
+        if (scene.state.masts !== before.masts || scene.state.options !== before.options) {
+          planned = [...planned.slice(0, at + 1), now()];
+          at += 1;
+        }
+      }
+      assert.equal(now(), planned[at]);
+    }
+  }
 });
 
 test("the page opens with round options that suit the data", () => {

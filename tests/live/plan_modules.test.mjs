@@ -6,7 +6,7 @@ import { module } from "./page_modules.mjs";
 
 const { SeenCells } = await module("seen/seen_cells");
 const { classOf, className, countMode } = await module("seen/values");
-const { addressOf, readAddress } = await module("state/address");
+const { addressOf, readAddress, readChoice } = await module("state/address");
 const { Scene } = await module("state/scene");
 const { firstState } = await module("state/first_state");
 const { areaOf, isMoved, moveSite, polygonText, putBack, sitesOf } = await module("state/plan");
@@ -209,13 +209,39 @@ test("the address has what is to be served", () => {
     { kind: "premises" },
     { kind: "reach" },
     { kind: "area", ring: [1, 2, 3, 4, 5, 7] },
+    servedOf("places"),
+    servedOf("area"),
   ]) {
     const state = { ...firstState(INFO), task: "sites", served };
     assert.deepEqual(readAddress(addressOf(state), firstState(INFO)).served, served);
   }
-  // A file is the page's own, and an area that is not drawn is nothing yet.
-  for (const kind of ["places", "area"]) {
-    const state = { ...firstState(INFO), served: servedOf(kind) };
-    assert.deepEqual(readAddress(addressOf(state), firstState(INFO)).served, { kind: "reach" });
+});
+
+test("the address names files by what the server and the planner call them, and a choice with what was moved", () => {
+  const sent = { upload: "upload-7a.csv", file: "homes, north & south.csv", places: [] };
+  const sites = [1, 2, 3].map((x) => ({ x, y: 5, chosen: { x: 2, y: 5 } }));
+  const state = {
+    ...firstState(INFO),
+    task: "sites",
+    search: { ...sent, rings: [] },
+    served: { kind: "places", ...sent },
+    siting: { count: "4", height: "20", spacing: "250" },
+    plan: { job: { id: "9f2c" }, sites },
+  };
+  const address = addressOf(state);
+  const read = readAddress(address, firstState(INFO));
+  assert.deepEqual(read.siting, state.siting);
+  assert.deepEqual(read.options, state.options);
+  for (const { upload, file } of [read.search, read.served]) {
+    assert.deepEqual([upload, file], [sent.upload, sent.file]);
   }
+  assert.deepEqual(readChoice(address), {
+    job: "9f2c",
+    moved: [
+      { site: 0, x: 1, y: 5 },
+      { site: 2, x: 3, y: 5 },
+    ],
+  });
+  assert.equal(readChoice("site=1,2,3"), null);
+  assert.deepEqual(readAddress("served=upload-x&candidates=odd,file", firstState(INFO)).search, null);
 });

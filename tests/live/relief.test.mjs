@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 
-import { axeFindings, changed, closed, settled, stillPicture, until } from "./planner.mjs";
+import { axeFindings, changed, closed, settled, stillPicture, text, until } from "./planner.mjs";
 import { keepPicture, launchBrowser, openPage, startWorld, stopWorld, world } from "./served_map.mjs";
 
 before(async () => {
@@ -51,6 +51,8 @@ test("the view is loaded when it is opened, coloured by what is seen, from outsi
   assert.ok(!asked.some((path) => /three|relief_scene|tin\.glb/.test(path)));
   await open(page);
   assert.ok(asked.includes("/page/vendor/three.js") && asked.includes("/tin.glb"));
+  assert.ok(await (await page.$("#relief-view #legend")).isVisible());
+  assert.match(await text(page, "#legend-list"), /^from Mast A$/);
   await keepPicture(page, "relief");
   const coloured = await blueIn(page);
   assert.ok(coloured > 2000, String(coloured));
@@ -79,9 +81,12 @@ test("the view is loaded when it is opened, coloured by what is seen, from outsi
 test("houses stand on the ground, in the dark as well", async () => {
   const { page } = await pageThatAsks(world.town, { dark: true });
   await open(page);
+  assert.equal(await text(page, "#standing-list"), "buildings");
   await keepPicture(page, "relief-town");
   await page.$eval("#relief-close", (button) => button.click());
   await page.waitForSelector("#relief-view[hidden]");
+  assert.equal(await (await page.$("#standing")).isVisible(), false);
+  assert.ok(await (await page.$("#map #legend")).isVisible());
   await closed(page);
 });
 

@@ -1,6 +1,6 @@
 // Tests of the choice of sites, and of the survey of premises.
 import assert from "node:assert/strict";
-import { writeFileSync } from "node:fs";
+import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
 
@@ -29,6 +29,18 @@ async function pageOfSites() {
   return page;
 }
 
+/** A place within a house of the town, and how high that rises above the ground there. */
+function middleOfHouse() {
+  itin("tin town.itin --all --themes buildings -o town.geojson --overwrite", world.folder);
+  const { features } = JSON.parse(readFileSync(join(world.folder, "town.geojson"), "utf8"));
+  const roofs = features.filter(({ properties }) => properties.theme === "buildings");
+  const [ring] = roofs.at(40).geometry.coordinates;
+  const mean = (axis) => Number(((ring[0][axis] + ring[1][axis] + ring[2][axis]) / 3).toFixed(3));
+  const [x, y] = [mean(0), mean(1)];
+  const { from } = JSON.parse(itin(`los town.itin --from ${x},${y},0 --to ${x},${y},0 --json`, world.folder));
+  return { x, y, top: from.surface_m - from.ground_m };
+}
+
 const load = async (page, name, text_) => {
   writeFileSync(join(world.folder, name), text_);
   await (await page.$("#candidates")).uploadFile(join(world.folder, name));
@@ -40,7 +52,7 @@ async function loadCandidates(page) {
 }
 
 async function choose(page, count) {
-  await page.$eval("#site-count", (input, to) => (input.value = to), String(count));
+  await setField(page, "#site-count", String(count));
   await page.$eval("#choose", (button) => button.click());
   await page.waitForSelector("#plan:not([hidden])");
   await settledViews(page);
@@ -175,6 +187,64 @@ test("sites serve the ground in view or in an area that is drawn", async () => {
   await closed(page);
 });
 
+/** A page opened anew at the address of another one, as soon as that is the address of what it shows. */
+async function reopened(page, part) {
+  await page.waitForFunction((text_) => location.hash.includes(text_), {}, part);
+  await new Promise((resume) => setTimeout(resume, 500));
+  const again = await openPage(world.browser, page.url());
+  await settledViews(again);
+  return again;
+}
+
+test("a choice of sites and the files that it was made of are there again after a reload", async () => {
+  const page = await pageOfSites();
+  await load(page, "places.csv", `${CANDIDATES}Nowhere,abc,1,2\nFar,100,100,20\n`);
+  await until(async () => /^4 candidates of places\.csv/.test(await text(page, "#search-said")), "candidates are told");
+  assert.match(
+    await text(page, "#candidates-problem"),
+    /^2 rows cannot be used: feature 5: its x 'abc' is not a number; feature 6: lies off the data/,
+  );
+  await keepPicture(page, "left-out");
+  await serve(page, "places", /^Load the households/);
+  writeFileSync(join(world.folder, "few.csv"), "x,y\n312000,184000\n314000,188000\n316000,190000\n");
+  await (await page.$("#served-places")).uploadFile(join(world.folder, "few.csv"));
+  await until(async () => /the 3 places of few\.csv/.test(await text(page, "#served-said")), "they are told");
+  await choose(page, 2);
+  await page.focus(".marker");
+  for (let i = 0; i < 3; ++i) await page.keyboard.press("ArrowRight");
+  await until(async () => /^Now about/.test(await text(page, "#plan-now")), "a move is told");
+  const shown = (some) =>
+    some.evaluate(() =>
+      ["search-said", "served-said", "plan-sum", "plan-sites", "choice-run"].map(
+        (id) => document.getElementById(id).innerText,
+      ),
+    );
+  const again = await reopened(page, "&site=0,");
+  assert.deepEqual(await shown(again), await shown(page));
+  assert.equal(await again.$eval("#site-count", (input) => input.value), "2");
+  assert.match(await text(again, "#plan-sites"), /moved; added/);
+  await closed(again);
+
+  // A file or a result that the server has let go of is missed in plain words.
+  const address = new URLSearchParams(new URL(page.url()).hash.slice(1));
+  const [upload] = address.get("candidates").split(",");
+  const job = address.get("choice");
+  const key = await page.evaluate(() => localStorage.getItem("itin-key"));
+  const { origin } = new URL(page.url());
+  for (const path of [`uploads/${upload}`, `jobs/${job}`]) {
+    const gone = await fetch(`${origin}/api/v1/${path}`, { method: "DELETE", headers: { "X-Itin-Key": key } });
+    assert.equal(gone.status, 200, path);
+  }
+  const late = await openPage(world.browser, page.url());
+  await until(async () => /^places\.csv is gone: /.test(await text(late, "#candidates-problem")), "the file is missed");
+  assert.match(await text(late, "#choice-run .problem"), /^The choice of sites is gone: .* Choose sites again\.$/);
+  assert.match(await text(late, "#served-said"), /the 3 places of few\.csv/);
+  await keepPicture(late, "gone");
+  late.troubles.length = 0; // the browser notes the answers 404
+  await closed(late);
+  await closed(page);
+});
+
 test("sites serve buildings", async () => {
   const page = await openPage(world.browser, world.town.address);
   await page.$eval("#tasks input[value=sites]", (input) => input.click());
@@ -261,6 +331,28 @@ test("premises are surveyed from the masts on the map", async () => {
   await until(stale, "the survey is out of date");
   await setField(page, ".mast.selected .field-height input", h);
   await until(async () => !(await stale()), "it is of what would be asked again");
+  await closed(page);
+});
+
+test("a mast inside a building says so, and a click puts it on the roof", async () => {
+  const page = await pageWithMast(world.town);
+  await page.$eval("#tasks input[value=premises]", (input) => input.click());
+  assert.equal(await page.$eval("#inside", (card) => card.hidden), true);
+  const { x, y, top } = middleOfHouse();
+  await page.$eval("#place", (input, to) => (input.value = to), `${x},${y},1`);
+  await page.$eval("#place-form button", (button) => button.click());
+  await page.waitForSelector("#inside:not([hidden])");
+  const metres = (height) => `${Math.abs(height).toFixed(1)} m`;
+  const where = "Mast B stands on the ground within buildings, ";
+  assert.equal(await text(page, "#inside-said"), `${where}${metres(top - 1)} below the top, and sees nothing.`);
+  await keepPicture(page, "inside");
+  assert.deepEqual(await axeFindings(page), []);
+  await setField(page, ".mast.selected .field-height input", "30");
+  const above = `${where}and rises ${metres(30 - top)} above the top.`;
+  await until(async () => (await text(page, "#inside-said")) === above, above);
+  await page.click("#inside-up");
+  await page.waitForSelector("#inside[hidden]");
+  assert.match(await text(page, "#command"), /--observer-on=surface/);
   await closed(page);
 });
 

@@ -11,7 +11,7 @@ import { shownOf } from "./seen/shown.js";
 import { ContourLayer } from "./map/contour_layer.js";
 import { HeightTiles } from "./map/height_tiles.js";
 import { LineLayer } from "./map/line_layer.js";
-import { makeMap, projectionOf } from "./map/map.js";
+import { makeMap, projectionOf, showWhole } from "./map/map.js";
 import { takeClicks } from "./map/map_clicks.js";
 import { makeReliefLayer } from "./map/relief_layer.js";
 import { PremisesLayer } from "./map/premises_layer.js";
@@ -25,6 +25,7 @@ import { makeLinePanel } from "./line/line_panel.js";
 import { showStore } from "./panel/about.js";
 import { element } from "./panel/elements.js";
 import { makeHint } from "./panel/hint.js";
+import { makeInside } from "./panel/inside.js";
 import { makeLayersForm } from "./panel/layers_form.js";
 import { makeLegend } from "./panel/legend.js";
 import { MastList } from "./panel/mast_list.js";
@@ -34,9 +35,11 @@ import { Readout } from "./panel/readout.js";
 import { makeResults } from "./panel/results.js";
 import { makeSheet } from "./panel/sheet.js";
 import { makeShowForm } from "./panel/show_form.js";
+import { makeUndo } from "./panel/undo.js";
 import { makeUndecided } from "./panel/undecided.js";
 import { makeStatus } from "./panel/status.js";
 import { makeDwellingsSurvey } from "./plan/dwellings_survey.js";
+import { recall } from "./plan/recall.js";
 import { makePremisesSurvey } from "./plan/premises_survey.js";
 import { makeSearchForm } from "./plan/search_form.js";
 import { makeServedForm } from "./plan/served_form.js";
@@ -51,7 +54,7 @@ function keepAddress(scene) {
   let waiting = 0;
   const kept = /** @type {(keyof import("./state/scene.js").SceneState)[]} */ ([
     ...["task", "masts", "selected", "show", "target", "options", "layers", "view"],
-    ...["turbines", "part", "viewpoint", "search", "served"],
+    ...["turbines", "part", "viewpoint", "search", "served", "siting", "plan"],
   ]);
   scene.on(kept, () => {
     clearTimeout(waiting);
@@ -61,16 +64,16 @@ function keepAddress(scene) {
 
 /** What the server writes for the planner.
  * @param {{scene: Scene, views: LiveViews, map: import("./vendor/ol.js").OlMap, info: import("./server/api.js").Info,
- *   jobs: Jobs}} world */
-function makePlans({ scene, views, map, info, jobs }) {
+ *   jobs: Jobs}} world @param {import("./plan/recall.js").Gone} gone */
+function makePlans({ scene, views, map, info, jobs }, gone) {
   makeResults(scene, views, jobs);
   const layout = makeTurbinePanel(scene, views, jobs, map);
   makeZoneFiles(scene, jobs);
   makeWireline(scene, jobs, map);
-  const places = makeSearchForm(scene, map, jobs, info);
-  makeServedForm(scene, map, jobs, info);
+  const places = makeSearchForm(scene, map, jobs, info, gone.search);
+  makeServedForm(scene, map, jobs, info, gone.served);
   takeDrops(scene, { layout, places });
-  makeSiteChoice({ scene, views, map, info, jobs });
+  makeSiteChoice({ scene, views, map, info, jobs }, gone.plan);
   makePremisesSurvey(scene, jobs);
   makeDwellingsSurvey(scene, jobs, info);
 }
@@ -79,7 +82,8 @@ async function start() {
   const { key, rest } = takeKey();
   const info = await askInfo();
   const dark = matchMedia("(prefers-color-scheme: dark)");
-  const scene = new Scene(readAddress(rest, firstState(info)));
+  const { state, gone } = await recall(rest, readAddress(rest, firstState(info)));
+  const scene = new Scene(state);
   const connection = new LiveConnection(key);
   // Before the map is made, which has the room that is left.
   element("line").hidden = !scene.farEnd;
@@ -117,12 +121,15 @@ async function start() {
   makeLayersForm(scene, info);
   makeLegend(scene, views);
   makeUndecided(scene, views);
+  makeInside(scene, views);
+  makeUndo(scene);
+  element("whole-map").addEventListener("click", () => showWhole(map, info));
   makeStatus(connection, views, tiles);
   makeLinePanel(scene, connection, map, lines, dark);
   new MastList(scene, views, tiles);
   new Readout(scene, views, map, connection, info);
   makeReliefPanel({ scene, views, map, info });
-  makePlans({ scene, views, map, info, jobs: new Jobs(key) });
+  makePlans({ scene, views, map, info, jobs: new Jobs(key) }, gone);
   keepAddress(scene);
   followNewKeys(() => addressOf(scene.state));
   connection.connect();

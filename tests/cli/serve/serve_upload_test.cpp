@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <regex>
 
 #include <gtest/gtest.h>
 
@@ -53,15 +54,33 @@ class ServeUploads : public ServedHill {
 TEST_F(ServeUploads, TellWhatIsInThem) {
   const Answer table = upload(kTurbines);
   ASSERT_EQ(table.status, 201) << table.body;
-  EXPECT_EQ(table.json().at("name"), "upload-1.csv");
+  const std::string name = table.json().at("name");
+  EXPECT_TRUE(std::regex_match(name, std::regex("upload-[0-9a-f]{32}\\.csv"))) << name;
+  EXPECT_EQ(ask(*server_, "/api/v1/uploads/" + name).json(), table.json());
+  EXPECT_EQ(ask(*server_, "/api/v1/uploads/upload-1.csv").status, 404);
   EXPECT_EQ(table.json().at("places"),
             Json::parse(R"([{"x":301000,"y":171000,"name":"T1","hub_height_m":60,"rotor_diameter_m":80},
                             {"x":301300,"y":171200,"name":"T2","hub_height_m":60,"rotor_diameter_m":80}])"));
   const Answer area = upload(kArea, "application/geo+json");
   ASSERT_EQ(area.status, 201) << area.body;
-  EXPECT_EQ(area.json().at("name"), "upload-2.geojson");
+  EXPECT_TRUE(area.json().at("name").get<std::string>().ends_with(".geojson")) << area.body;
   EXPECT_EQ(area.json().at("places"), Json::array());
   EXPECT_EQ(area.json().at("rings"), Json::parse("[[300500,170500,301500,170500,301500,171500]]"));
+}
+
+TEST_F(ServeUploads, TellRowsThatCannotBeUsed) {
+  const Json told = upload("x,y\n301000,171000\nfar,1\n1,2\n").json();
+  EXPECT_EQ(told.at("rows"), 3);
+  EXPECT_EQ(told.at("unusable"), 2);
+  EXPECT_EQ(told.at("places"), Json::parse(R"([{"x":301000,"y":171000}])"));
+  const std::string warning = told.at("warnings").at(0);
+  EXPECT_EQ(warning.find("2 rows cannot be used: feature 2: its x 'far' is not a number; feature 3: lies off the data"),
+            0)
+      << warning;
+  const Answer swapped = upload("x,y\n171000,301000\n");
+  EXPECT_EQ(swapped.status, 400);
+  EXPECT_NE(swapped.json().at("error").get<std::string>().find("its coordinates are swapped"), std::string::npos)
+      << swapped.body;
 }
 
 TEST_F(ServeUploads, GiveTheBytesOfTheCommandLine) {
@@ -123,11 +142,11 @@ TEST_F(ServeUploads, OfOddKindsAreNotKept) {
   expect(vrt, "application/geo+json", 400, "cannot be read");
   expect(vrt, "text/csv", 400, "holds nothing");
   expect("a,b\n1,2\n", "text/csv", 400, "must name x and y");
-  expect(std::string("\x89PNG\r\n\x1a\n\0\0\0\1", 12), "text/csv", 400, "upload-4.csv");
+  expect(std::string("\x89PNG\r\n\x1a\n\0\0\0\1", 12), "text/csv", 400, ".csv: ");
   expect("{\"type\": \"FeatureCollection\", \"features\": [", "application/geo+json", 400, "cannot be read");
   expect("SQLite format 3", "application/geo+json", 400, "cannot be read");
   expect("x,y\n1,2\n", "application/zip", 415, "send text/csv or application/geo+json");
-  EXPECT_EQ(start({{"verb", "premises"}, {"options", {{"masts", "upload-3.csv"}, {"output", "x"}}}}).status, 400);
+  EXPECT_EQ(start({{"verb", "premises"}, {"options", {{"masts", "upload-1.csv"}, {"output", "x"}}}}).status, 400);
   EXPECT_EQ(ask(*server_, "/api/v1/uploads", {.method = "POST", .headers = {{"Content-Type", "text/csv"}}, .body = "x"})
                 .status,
             403);
@@ -159,17 +178,19 @@ TEST_F(ServeUploads, GoWhenTheyAreRemovedAndWhenTheServerEnds) {
   ASSERT_EQ(setenv("TMPDIR", temporary.c_str(), 1), 0);
   serve();
   unsetenv("TMPDIR");
-  for (int i = 0; i < 17; ++i) ASSERT_EQ(upload(kTurbines).status, 201);
+  std::vector<std::string> names;
+  for (int i = 0; i < 17; ++i) names.push_back(upload(kTurbines).json().at("name"));
   std::size_t files = 0;
   for (const auto& entry : fs::recursive_directory_iterator(temporary)) files += entry.is_regular_file();
   EXPECT_EQ(files, 16u);
-  const auto job = [&](const char* name) {
+  const auto job = [&](const std::string& name) {
     return start({{"verb", "ztv"}, {"options", {{"turbines", name}, {"output", "zones"}}}}).status;
   };
-  EXPECT_EQ(job("upload-1.csv"), 400);  // the oldest went
-  EXPECT_EQ(remove("/api/v1/uploads/upload-2.csv").status, 200);
-  EXPECT_EQ(remove("/api/v1/uploads/upload-2.csv").status, 404);
-  EXPECT_EQ(job("upload-2.csv"), 400);
+  EXPECT_EQ(job(names[0]), 400);  // the oldest went
+  EXPECT_EQ(ask(*server_, "/api/v1/uploads/" + names[0]).status, 404);
+  EXPECT_EQ(remove("/api/v1/uploads/" + names[1]).status, 200);
+  EXPECT_EQ(remove("/api/v1/uploads/" + names[1]).status, 404);
+  EXPECT_EQ(job(names[1]), 400);
   EXPECT_EQ(server_->end(SIGTERM).status, 130);
   EXPECT_TRUE(fs::is_empty(temporary));
   server_.reset();

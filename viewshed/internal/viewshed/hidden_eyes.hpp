@@ -1,6 +1,7 @@
 // Finds observers and masts whose eyes are within what stands on the ground.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,15 @@
 #include <itin/theme.hpp>
 
 namespace itin::viewshed {
+
+/// A feature that a place lies within.
+struct Cover {
+  std::string theme;
+  double top = 0;  ///< the elevation of its top there
+};
+
+/// Returns what stands at a place; nothing where it is in the open.
+std::optional<Cover> cover_at(const Store& store, Point2 place, const Detail& detail, const ThemeChoice& themes);
 
 /// Places of eyes over one surface; z is their elevation.
 struct Eyes {

@@ -6,20 +6,24 @@
 
 namespace itin::viewshed {
 
-void warn_of_hidden_eyes(const Store& store, const Eyes& eyes, std::vector<std::string>& warnings) {
+std::optional<Cover> cover_at(const Store& store, Point2 place, const Detail& detail, const ThemeChoice& themes) {
   const StoreMetadata& metadata = store.metadata();
-  if (!eyes.themes.includes_raised(metadata.themes)) return;
+  if (!themes.includes_raised(metadata.themes)) return std::nullopt;
+  const CrossSection above = cross_section(store, place, place, detail, themes);
+  if (above.breakpoints.empty() || above.breakpoints.front().theme == 0) return std::nullopt;
+  const Breakpoint& top = above.breakpoints.front();
+  return Cover{metadata.themes[top.theme - std::size_t{1}].name, top.position.z};
+}
+
+void warn_of_hidden_eyes(const Store& store, const Eyes& eyes, std::vector<std::string>& warnings) {
   std::size_t count = 0;
   std::string first;
   for (const Point3& eye : eyes.places) {
-    const Point2 place{eye.x, eye.y};
-    const CrossSection above = cross_section(store, place, place, eyes.detail, eyes.themes);
-    if (above.breakpoints.empty() || above.breakpoints.front().theme == 0) continue;
-    const Breakpoint& top = above.breakpoints.front();
-    if (eye.z >= top.position.z) continue;
+    const auto cover = cover_at(store, {eye.x, eye.y}, eyes.detail, eyes.themes);
+    if (!cover || eye.z >= cover->top) continue;
     if (count++ == 0)
-      first = fmt::format("{:.10g},{:.10g} is within {}, {:.1f} m below the top", eye.x, eye.y,
-                          metadata.themes[top.theme - std::size_t{1}].name, top.position.z - eye.z);
+      first = fmt::format("{:.10g},{:.10g} is within {}, {:.1f} m below the top", eye.x, eye.y, cover->theme,
+                          cover->top - eye.z);
   }
   if (count == 0) return;
   warnings.push_back(fmt::format(

@@ -25,13 +25,20 @@ void require_possible(const MapOptions& options) {
     throw InputError(fmt::format("map of {} pixels: give 200 to 16000", options.map_pixels), "map_pixels");
 }
 
+/// The name of an observer, where it has one that is more than its number, and its place.
+std::string observer_text(const Observer& observer) {
+  const bool named = observer.name.find_first_not_of("0123456789") != std::string::npos;
+  return fmt::format("{} at {:.10g}, {:.10g},", named ? observer.name : "Observer", observer.position.x,
+                     observer.position.y);
+}
+
 std::string subtitle_of(const Result& result) {
   const Request& r = result.request;
   const Observer& first = r.observers.front();
   const bool alike = std::all_of(r.observers.begin(), r.observers.end(), [&](const Observer& o) {
     return o.height == first.height && o.absolute == first.absolute;
   });
-  std::string text = r.observers.size() == 1 ? "Observer" : fmt::format("{} observers", r.observers.size());
+  std::string text = r.observers.size() == 1 ? observer_text(first) : fmt::format("{} observers", r.observers.size());
   const auto height = [](double metres, bool absolute) {
     return fmt::format("{} {:g} m {}", absolute ? " at" : "", metres, absolute ? "elevation" : "above ground");
   };

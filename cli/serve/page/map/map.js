@@ -32,9 +32,14 @@ export function makeMap(element, info, scene) {
       showFullExtent: true,
     }),
   });
-  if (!view) map.getView().fit(extentOf(info), { padding: [24, 24, 24, 24] });
+  if (!view) showWhole(map, info);
   map.on("moveend", () => keepView(map, scene));
   return map;
+}
+
+/** Shows all that the store holds. @param {OlMap} map @param {Info} info */
+export function showWhole(map, info) {
+  map.getView().fit(extentOf(info), { padding: [24, 24, 24, 24] });
 }
 
 /** @param {OlMap} map @param {Scene} scene */

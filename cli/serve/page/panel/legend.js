@@ -13,6 +13,7 @@ import {
   meanColour,
   rampColour,
 } from "../seen/palette.js";
+import { letterOf } from "../state/mast_letter.js";
 import { SERVICES } from "../state/premises.js";
 import { SLOPE_COLOURS, SLOPE_LIMITS } from "../map/shade.js";
 import { sourcesOf } from "../seen/shown.js";
@@ -23,7 +24,11 @@ import { modeOf, optionsOf, showOf, viewerOf, viewersOf } from "../seen/viewers.
 /** @typedef {import("../state/scene.js").Scene} Scene */
 /** @typedef {import("../seen/live_views.js").LiveViews} LiveViews */
 /** @typedef {import("../seen/picture.js").Source} Source */
-/** @typedef {[colour: string, text: string, opacity?: number]} Entry */
+/** @typedef {[colour: string | string[], text: string, opacity?: number]} Entry  Several colours mean the same. */
+
+/** Of so many masts each mixture of colours is told. */
+const MOST_TOLD = 3;
+const MIXED = 0.9;
 
 /** @param {Scene} scene @param {LiveViews} views */
 export function makeLegend(scene, views) {
@@ -85,10 +90,7 @@ function verdictEntries(scene, sources) {
     for (const mast of masts.filter((some) => show !== "alone" || some === chosen)) {
       entries.push([hueCss(mast.hue), `from ${mast.name}`]);
     }
-    if (!single) {
-      const mixture = meanColour(sources.map(({ hue }) => HUES[hue]));
-      entries.push([cssColour(mixture), "mixtures: from several", 0.9]);
-    }
+    if (!single) entries.push(...mixtureEntries(masts));
   }
   if (options.frequency || holds(sources, CUT)) {
     entries.push([hueCss(sources.at(0)?.hue ?? 0), "paler: Fresnel zone cut", 0.3]);
@@ -98,6 +100,36 @@ function verdictEntries(scene, sources) {
     entries.push([cssColour(UNDECIDED_COLOUR), "undecided, behind ground without data", UNDECIDED_OPACITY]);
   }
   return entries;
+}
+
+/** @typedef {import("../state/scene.js").Mast} Mast */
+
+/** All sets of two masts or more. @param {Mast[]} masts @returns {Mast[][]} */
+const setsOf = (masts) =>
+  Array.from({ length: 1 << masts.length }, (_, mask) => masts.filter((__, bit) => mask & (1 << bit)))
+    .filter((set) => set.length > 1)
+    .sort((a, b) => a.length - b.length);
+
+/** The colours of what several masts see; of many masts those of pairs. @param {Mast[]} masts @returns {Entry[]} */
+function mixtureEntries(masts) {
+  const colourOf = (/** @type {Mast[]} */ set) => cssColour(meanColour(set.map(({ hue }) => HUES[hue])));
+  if (masts.length > MOST_TOLD) {
+    return [
+      [
+        setsOf(masts)
+          .filter(({ length }) => length === 2)
+          .map(colourOf),
+        "mixtures: from several",
+        MIXED,
+      ],
+    ];
+  }
+  const all = masts.length === 2 ? "from both" : "from all";
+  return setsOf(masts).map((set) => [
+    colourOf(set),
+    set.length === masts.length ? all : `from ${set.map(letterOf).join(" and ")}`,
+    MIXED,
+  ]);
 }
 
 /** What dots on buildings mean. @param {import("../state/premises.js").Building[]} buildings @returns {Entry[]} */
@@ -110,12 +142,17 @@ const premisesEntries = (buildings) =>
 const holds = (sources, verdict) => sources.some(({ cells }) => cells.verdicts & (1 << verdict));
 
 /** @param {Entry} entry */
-function entryElement([colour, text, opacity = 0.65]) {
+export function entryElement([colours, text, opacity = 0.65]) {
   const item = make("li");
-  const swatch = make("span", "swatch");
-  swatch.style.setProperty("--colour", colour);
-  swatch.style.setProperty("--opacity", String(opacity));
-  item.append(swatch, text);
+  const swatches = [colours].flat().map((colour) => {
+    const swatch = make("span", "swatch");
+    swatch.style.setProperty("--colour", colour);
+    swatch.style.setProperty("--opacity", String(opacity));
+    return swatch;
+  });
+  const box = make("span", "swatches");
+  box.append(...swatches);
+  item.append(box, text);
   return item;
 }
 

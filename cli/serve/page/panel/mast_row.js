@@ -6,6 +6,8 @@ import { inPageWords } from "./page_words.js";
 import { areaText, numberText, shareText } from "./words.js";
 import { hueCss } from "../seen/palette.js";
 import { letterOf } from "../state/mast_letter.js";
+import { nameIn } from "../state/scene.js";
+import { onTyped } from "./typed.js";
 
 /** @typedef {import("../state/scene.js").Scene} Scene */
 /** @typedef {import("../state/scene.js").Mast} Mast */
@@ -24,7 +26,7 @@ const FIELDS = [
 /** What a field's text says, or null where it says nothing that can be used. @param {string} name @param {string} text */
 function valueOf(name, text) {
   if (text.trim() === "") return null;
-  if (name === "name") return text.trim().replaceAll(",", " ");
+  if (name === "name") return nameIn(text);
   return Number.isFinite(Number(text)) ? Number(text) : null;
 }
 
@@ -51,8 +53,11 @@ export class MastRow {
       const input = make("input");
       input.inputMode = name === "name" ? "text" : "decimal";
       input.autocomplete = "off";
-      input.addEventListener("change", () => {
+      // A place that is half typed would send the mast away.
+      const isPlace = name === "x" || name === "y";
+      onTyped(input, (_, left) => {
         const value = valueOf(name, input.value);
+        if (!left && (isPlace || value === null)) return;
         input.setAttribute("aria-invalid", String(value === null));
         input.setCustomValidity(value !== null ? "" : name === "name" ? "Give it a name." : "Give a number of metres.");
         input.reportValidity();
@@ -77,7 +82,11 @@ export class MastRow {
     this.#climb.textContent = "";
     this.#dot.textContent = letterOf(mast);
     this.#name.textContent = mast.name;
-    for (const [name] of FIELDS) this.#inputs[name].value = String(mast[name]);
+    for (const [name] of FIELDS) {
+      const input = this.#inputs[name];
+      // What is being typed stays as it is typed.
+      if (valueOf(name, input.value) !== mast[name]) input.value = String(mast[name]);
+    }
     this.lineTo.offer(
       masts.filter(({ id }) => id !== mast.id),
       target,

@@ -1,6 +1,7 @@
 // The fields of options: each field's name is the name of an option of the command line, an empty field its default.
 
 import { element } from "./elements.js";
+import { onTyped } from "./typed.js";
 import { modeNamed, neededIn, withMode } from "../state/mode.js";
 
 /** @typedef {import("../state/scene.js").Scene} Scene */
@@ -15,9 +16,9 @@ const MODE = "mode";
 export function makeOptionsForm(scene, info, views) {
   const form = /** @type {HTMLFormElement} */ (element("options"));
   form.addEventListener("submit", (event) => event.preventDefault());
-  form.addEventListener("change", ({ target }) => {
+  onTyped(form, (target, left) => {
     if (!(target instanceof HTMLInputElement || target instanceof HTMLSelectElement) || !target.name) return;
-    if (!target.checkValidity()) return target.setAttribute("aria-invalid", "true");
+    if (!target.checkValidity()) return left && target.setAttribute("aria-invalid", "true");
     if (target.name === MODE) setMode(scene, target.value);
     else setOption(scene, target.name, target.value.trim());
   });

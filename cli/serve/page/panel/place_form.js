@@ -3,7 +3,7 @@
 import { element } from "./elements.js";
 import { problemText } from "./page_words.js";
 import { askPlace } from "../server/api.js";
-import { MOST_MASTS } from "../state/scene.js";
+import { MOST_MASTS, nameIn } from "../state/scene.js";
 
 /** @typedef {import("../state/scene.js").Scene} Scene */
 /** @typedef {import("../vendor/ol.js").OlMap} OlMap */
@@ -12,6 +12,7 @@ import { MOST_MASTS } from "../state/scene.js";
 export function makePlaceForm(scene, map) {
   const form = /** @type {HTMLFormElement} */ (element("place-form"));
   const input = /** @type {HTMLInputElement} */ (element("place"));
+  const name = /** @type {HTMLInputElement} */ (element("place-name"));
   const problem = element("place-problem");
   const button = /** @type {HTMLButtonElement} */ (element("place-button"));
   button.addEventListener("click", () => scene.change({ placing: !scene.state.placing }));
@@ -22,9 +23,10 @@ export function makePlaceForm(scene, map) {
       const { x, y, ground_m, height_m } = await askPlace(asTyped(input.value));
       if (ground_m === null) throw new Error(`'${input.value}': there is no ground in the data`);
       const place = { x, y };
-      scene.addMast({ ...place, ...(height_m === null ? {} : { height: height_m }) });
+      const called = nameIn(name.value);
+      scene.addMast({ ...place, ...(called && { name: called }), ...(height_m === null ? {} : { height: height_m }) });
       showPlace(map, place);
-      input.value = "";
+      input.value = name.value = "";
     } catch (error) {
       problem.textContent = problemText(error).replace(/^at /, "");
     }
@@ -33,6 +35,7 @@ export function makePlaceForm(scene, map) {
     const { placing, masts, task } = scene.state;
     button.setAttribute("aria-pressed", String(placing));
     button.disabled = masts.length >= MOST_MASTS;
+    name.placeholder = scene.nextName;
     element("map").classList.toggle("placing", task !== "sites" && (placing || masts.length === 0));
   });
 }

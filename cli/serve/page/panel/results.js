@@ -23,6 +23,9 @@ function mastsMeant(scene) {
   return scene.mast ? [scene.mast] : [];
 }
 
+/** A word for the shell. @param {string} text */
+const quoted = (text) => (/^[\w.:+-]+$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`);
+
 /**
  * The command of one mast, which the server has told, with the observers of all.
  * @param {Scene} scene
@@ -32,7 +35,10 @@ export function commandOf(scene, views) {
   const masts = mastsMeant(scene);
   const command = masts[0] && views.of(masts[0].id)?.done?.command;
   return command
-    ? command.replace(/--observer=\S+/, masts.map((mast) => `--observer=${observerOf(mast)}`).join(" "))
+    ? command.replace(
+        /--observer=\S+/,
+        masts.map((mast) => `--observer=${observerOf(mast)} --observer-name=${quoted(mast.name)}`).join(" "),
+      )
     : "";
 }
 
@@ -68,6 +74,7 @@ export function makeResults(scene, views, jobs) {
       download.start({
         ...optionsOf(scene.state),
         observer: masts.map(observerOf),
+        "observer-name": masts.map(({ name }) => name),
         [OUTPUTS[ending]]: `${fileName(masts)}.${ending}`,
       });
     });

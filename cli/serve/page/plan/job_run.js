@@ -1,6 +1,7 @@
 // A call of the program that the planner starts: how far it is, what is wrong with it, and the files that it wrote.
 
 import { make } from "../panel/elements.js";
+import { UPLOADED } from "../server/api.js";
 import { inPageWords, problemText } from "../panel/page_words.js";
 import { numberText } from "../panel/words.js";
 
@@ -11,9 +12,6 @@ import { numberText } from "../panel/words.js";
 
 /** @typedef {import("../state/scene.js").Scene} Scene */
 /** @typedef {import("../state/scene.js").SceneState} SceneState */
-
-/** The server's names for files. */
-const UPLOADED = /upload-\d+\.\w+/g;
 
 export class JobRun {
   #now = make("div", "run-now");
@@ -28,6 +26,8 @@ export class JobRun {
   #asks = () => "";
   /** @type {string | null} */
   #asked = null;
+  /** The call whose result is shown. @type {Job | null} */
+  #shown = null;
 
   /** @param {HTMLElement} box @param {Jobs} jobs @param {string} what  What is being done, for those who hear it.
    * @param {(name: string) => boolean} [listed]  Which of the files are listed.
@@ -49,7 +49,7 @@ export class JobRun {
     this.#outdated.setAttribute("role", "status");
     box.append(this.#now, this.#problem, this.#outdated, this.#warnings, this.#files);
     this.compare();
-    this.#show(false);
+    this.#running(false);
     this.#files.hidden = true;
   }
 
@@ -72,6 +72,11 @@ export class JobRun {
     this.#outdated.hidden = this.#asked === null || this.#asked === this.#asks();
   }
 
+  /** @param {string} problem */
+  complain(problem) {
+    this.#problem.textContent = problem;
+  }
+
   /** Takes back what went wrong, once what was asked has changed. */
   forgive() {
     this.#problem.textContent = "";
@@ -86,11 +91,11 @@ export class JobRun {
     this.#problem.textContent = "";
     this.#warnings.textContent = "";
     this.#files.hidden = true;
-    this.#asked = null;
+    this.#asked = this.#shown = null;
     this.compare();
     const asked = this.#asks();
     this.#look({ share: 0, stage: "waiting", seconds_left: null });
-    this.#show(true);
+    this.#running(true);
     let job = null;
     try {
       job = await this.#ended(await prepare(), given.signal);
@@ -99,13 +104,25 @@ export class JobRun {
         this.#problem.textContent = problemText(problem, this.names).replace(UPLOADED, "the table sent");
       }
     }
-    if (this.#given === given) this.#show(false);
+    if (this.#given === given) this.#running(false);
     if (given.signal.aborted || !job) return null;
+    this.#tell(job, asked);
+    return job;
+  }
+
+  /** Shows the result of a call that was made before, unless that is shown. @param {Job} job
+   * @param {unknown} asked  What was asked. */
+  show(job, asked) {
+    if (job.id !== this.#shown?.id) this.#tell(job, JSON.stringify(asked));
+  }
+
+  /** @param {Job} job @param {string} asked */
+  #tell(job, asked) {
     this.#asked = asked;
+    this.#shown = job;
     this.compare();
     this.#warn(job);
     this.#list(job);
-    return job;
   }
 
   /** @param {Call} call @param {AbortSignal} signal */
@@ -119,7 +136,7 @@ export class JobRun {
   }
 
   /** @param {boolean} running */
-  #show(running) {
+  #running(running) {
     this.#now.hidden = !running;
   }
 

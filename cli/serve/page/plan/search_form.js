@@ -6,7 +6,8 @@ import { roundUp } from "../state/first_state.js";
 import { areaOf, haveHeights } from "../state/plan.js";
 import { drawArea } from "../map/search_layer.js";
 import { ringInView } from "./served_form.js";
-import { takeFiles } from "./tasks_form.js";
+import { onTyped } from "../panel/typed.js";
+import { takeFiles, warningsOf } from "./tasks_form.js";
 
 /** @typedef {import("../state/scene.js").Scene} Scene */
 /** @typedef {import("../state/plan.js").Search} Search */
@@ -32,9 +33,14 @@ function searchText(search) {
 export const usualSpacing = (search) => roundUp(Math.sqrt(areaIn(search)) / CANDIDATES_ACROSS);
 
 /** Returns what takes a file with places or an area. @param {Scene} scene @param {OlMap} map
- * @param {import("../server/api.js").Jobs} jobs @param {import("../server/api.js").Info} info */
-export function makeSearchForm(scene, map, jobs, info) {
-  const take = (/** @type {Search} */ search) => scene.change({ search, plan: null });
+ * @param {import("../server/api.js").Jobs} jobs @param {import("../server/api.js").Info} info
+ * @param {string} gone  Says of a file of the page's address that it is not there any more; else empty. */
+export function makeSearchForm(scene, map, jobs, info, gone) {
+  const take = (/** @type {Search} */ search) => {
+    const { siting } = scene.state;
+    const spacing = areaIn(search) > 0 ? String(usualSpacing(search)) : siting.spacing;
+    scene.change({ search, plan: null, siting: { ...siting, spacing } });
+  };
   makeDrawing(scene, map, (ring) => {
     if (scene.state.drawing === "search") take({ ring });
     else scene.change({ served: { kind: "area", ring }, plan: null });
@@ -44,22 +50,32 @@ export function makeSearchForm(scene, map, jobs, info) {
     if (ring) take({ ring });
   });
   const takePlaces = takeFiles("candidates", element("candidates-problem"), async (file) => {
-    const { name, places, rings } = await jobs.send(file.name, file);
+    const upload = await jobs.send(file.name, file);
+    const { name, places, rings } = upload;
     if (places.length === 0 && rings.length === 0) throw new Error(`${file.name}: has neither places nor an area`);
-    const { search } = scene.state;
-    if (search && "upload" in search) jobs.forget(search.upload).catch(() => {});
     take({ file: file.name, upload: name, places, rings });
+    element("candidates-problem").textContent = warningsOf(upload);
   });
-  const spacing = /** @type {HTMLInputElement} */ (element("site-spacing"));
+  element("candidates-problem").textContent = gone;
   scene.on(["search"], () => {
     const { search } = scene.state;
-    const proposed = search !== null && areaIn(search) > 0;
     element("search-said").textContent = searchText(search);
-    element("spacing-field").hidden = !proposed;
+    element("spacing-field").hidden = search === null || areaIn(search) === 0;
     element("height-field").hidden = haveHeights(search);
-    if (proposed) spacing.value = String(usualSpacing(search));
   });
+  makeSitingFields(scene);
   return takePlaces;
+}
+
+/** How many sites, how high, how far apart. @param {Scene} scene */
+function makeSitingFields(scene) {
+  for (const name of /** @type {const} */ (["count", "height", "spacing"])) {
+    const field = /** @type {HTMLInputElement} */ (element(`site-${name}`));
+    onTyped(field, () => scene.change({ siting: { ...scene.state.siting, [name]: field.value.trim() } }));
+    scene.on(["siting"], () => {
+      if (field.value.trim() !== scene.state.siting[name]) field.value = scene.state.siting[name];
+    });
+  }
 }
 
 /** @param {Scene} scene @param {OlMap} map @param {(ring: number[]) => void} take */

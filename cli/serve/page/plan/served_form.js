@@ -3,17 +3,16 @@
 import { element } from "../panel/elements.js";
 import { areaText, chosenText, countedText } from "../panel/words.js";
 import { areaOf } from "../state/plan.js";
-import { cellsIn, servedOf } from "../state/served.js";
+import { cellsIn, placesServed, servedOf } from "../state/served.js";
 import { tableOf } from "./tables.js";
-import { hasBuildings, takeFiles } from "./tasks_form.js";
+import { hasBuildings, takeFiles, warningsOf } from "./tasks_form.js";
 
 /** @typedef {import("../state/scene.js").Scene} Scene */
 /** @typedef {import("../state/served.js").Served} Served */
 /** @typedef {import("../vendor/ol.js").OlMap} OlMap */
 /** @typedef {import("../server/api.js").Info} Info */
 /** @typedef {import("../server/api.js").Jobs} Jobs */
-/** @typedef {{what: string, unit: "ground" | "place" | "building", points: import("../state/scene.js").Place[] | null}}
- *   Asked  What was asked to be served, in words; the places that count, where the page knows them. */
+/** @typedef {import("../state/plan.js").Asked} Asked */
 
 /** The ground that is in view, as far as there are data. @param {OlMap} map @param {Info} info */
 export function ringInView(map, info) {
@@ -48,19 +47,20 @@ function servedText({ state: { served, options } }, map, info) {
   }
 }
 
-/** @param {Scene} scene @param {OlMap} map @param {Jobs} jobs @param {Info} info */
-export function makeServedForm(scene, map, jobs, info) {
+/** @param {Scene} scene @param {OlMap} map @param {Jobs} jobs @param {Info} info
+ * @param {string} gone  Says of a file of the page's address that it is not there any more; else empty. */
+export function makeServedForm(scene, map, jobs, info, gone) {
   const select = /** @type {HTMLSelectElement} */ (element("served"));
   if (!hasBuildings(info)) select.querySelector("option[value=premises]")?.remove();
   const change = (/** @type {Served} */ served) => scene.change({ served, plan: null });
   select.addEventListener("change", () => change(servedOf(/** @type {any} */ (select.value))));
   takeFiles("served-places", element("served-problem"), async (file) => {
-    const { name, rows, places } = await jobs.send(file.name, file);
-    if (places.length === 0) throw new Error(`${file.name}: has no places`);
-    const { served } = scene.state;
-    if (served.kind === "places" && served.upload) jobs.forget(served.upload).catch(() => {});
-    change({ kind: "places", file: file.name, upload: name, places, rows });
+    const upload = await jobs.send(file.name, file);
+    if (upload.places.length === 0) throw new Error(`${file.name}: has no places`);
+    change(placesServed(file.name, upload));
+    element("served-problem").textContent = warningsOf(upload);
   });
+  element("served-problem").textContent = gone;
   scene.on(["served", "options", "view", "task"], () => {
     const { served } = scene.state;
     select.value = served.kind;
@@ -70,32 +70,31 @@ export function makeServedForm(scene, map, jobs, info) {
   });
 }
 
-/** What a call of `itin site` is told of it, and what the page will say of its result.
- * @param {Scene} scene @param {OlMap} map @param {Info} info @param {Jobs} jobs
- * @returns {Promise<{options: Record<string, string>, uploads: string[], asked: Asked}>} */
-export async function servedCall(scene, map, info, jobs) {
-  const { served, options } = scene.state;
-  if (served.kind === "premises") {
-    return {
-      options: { demand: "premises" },
-      uploads: [],
-      asked: { what: "the buildings within reach", unit: "building", points: null },
-    };
+/** What the page says of the result of a call. @param {Served} served @param {number} radius @returns {Asked} */
+export function askedOf(served, radius) {
+  switch (served.kind) {
+    case "premises":
+      return { what: "the buildings within reach", unit: "building" };
+    case "places":
+      return { what: `the places of ${served.file}`, unit: "place" };
+    case "reach":
+      return { what: `what lies within ${chosenText(radius)} of a candidate`, unit: "ground" };
+    default:
+      return { what: served.kind === "view" ? "the ground that was in view" : "the area drawn", unit: "ground" };
   }
+}
+
+/** What a call of `itin site` is told of it.
+ * @param {Scene} scene @param {OlMap} map @param {Info} info @param {Jobs} jobs
+ * @returns {Promise<{options: Record<string, string>, uploads: string[]}>} */
+export async function servedCall(scene, map, info, jobs) {
+  const { served } = scene.state;
+  if (served.kind === "premises") return { options: { demand: "premises" }, uploads: [] };
   if (served.kind === "places") {
     if (!served.upload) throw new Error("Load the places that are to be served.");
-    const all = served.places.length === served.rows;
-    const asked = /** @type {Asked} */ ({
-      what: `the places of ${served.file}`,
-      unit: "place",
-      points: all ? served.places : null,
-    });
-    return { options: { demand: served.upload }, uploads: [], asked };
+    return { options: { demand: served.upload }, uploads: [] };
   }
-  if (served.kind === "reach") {
-    const what = `what lies within ${chosenText(Number(options.radius))} of a candidate`;
-    return { options: {}, uploads: [], asked: { what, unit: "ground", points: null } };
-  }
+  if (served.kind === "reach") return { options: {}, uploads: [] };
   const ring = served.kind === "view" ? ringInView(map, info) : served.ring;
   if (!ring) {
     throw new Error(served.kind === "view" ? "There is no ground in view." : "Draw the area that is to be served.");
@@ -111,6 +110,5 @@ export async function servedCall(scene, map, info, jobs) {
       points.map(({ x, y }) => [x, y]),
     ),
   );
-  const what = served.kind === "view" ? "the ground that was in view" : "the area drawn";
-  return { options: { demand: name }, uploads: [name], asked: { what, unit: "ground", points } };
+  return { options: { demand: name }, uploads: [name] };
 }

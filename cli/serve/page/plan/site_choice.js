@@ -11,23 +11,22 @@ import { MOST_SITES, haveHeights, isMoved, polygonText, putBack, selectSite, sit
 import { MOST_MASTS } from "../state/scene.js";
 import { jobOptions } from "./job_options.js";
 import { JobRun } from "./job_run.js";
-import { servedCall } from "./served_form.js";
+import { askedOf, servedCall } from "./served_form.js";
 import { placesIn } from "./tables.js";
 
 /** @typedef {import("../state/scene.js").Scene} Scene */
 /** @typedef {import("../state/plan.js").Plan} Plan */
 /** @typedef {import("../state/plan.js").Search} Search */
+/** @typedef {import("../state/served.js").Served} Served */
 /** @typedef {import("../seen/live_views.js").LiveViews} LiveViews */
 /** @typedef {import("../server/api.js").Job} Job */
 
 const SITES = "sites";
-const field = (/** @type {string} */ id) => /** @type {HTMLInputElement} */ (element(id)).value.trim();
 
-/** @param {Search} search @returns {Record<string, string>} */
-function searchOptions(search) {
-  const spacing = { spacing: field("site-spacing") };
-  if ("ring" in search) return { "search-area": polygonText(search.ring), ...spacing };
-  if (search.places.length === 0) return { "search-area": search.upload, ...spacing };
+/** @param {Search} search @param {string} spacing @returns {Record<string, string>} */
+function searchOptions(search, spacing) {
+  if ("ring" in search) return { "search-area": polygonText(search.ring), spacing };
+  if (search.places.length === 0) return { "search-area": search.upload, spacing };
   const named = search.places.every(({ name }) => name);
   return { candidates: search.upload, ...(named ? { "name-field": "name" } : {}) };
 }
@@ -35,67 +34,77 @@ function searchOptions(search) {
 /** @typedef {{scene: Scene, views: LiveViews, map: import("../vendor/ol.js").OlMap,
  *    info: import("../server/api.js").Info, jobs: import("../server/api.js").Jobs}} World */
 
-/** @param {World} world @returns {Promise<{call: import("./job_run.js").Call, asked: import("./served_form.js").Asked}>} */
+/** The options of a choice, but for what is to be served. @param {import("../state/scene.js").SceneState} state
+ * @returns {Record<string, string>} */
+function siteOptions({ search, siting, options }) {
+  return {
+    ...jobOptions("site", options),
+    ...(search ? searchOptions(search, siting.spacing) : {}),
+    ...(haveHeights(search) ? {} : { "mast-height": siting.height }),
+    ...{ count: siting.count, output: SITES },
+  };
+}
+
+/** @param {World} world @returns {Promise<import("./job_run.js").Call>} */
 async function siteCall({ scene, map, info, jobs }) {
-  const { search, options } = scene.state;
+  const { search, siting } = scene.state;
   if (!search) throw new Error("Say where masts may stand: draw an area, or load places.");
-  const count = Number(field("site-count"));
+  const count = Number(siting.count);
   if (!(Number.isInteger(count) && count >= 1 && count <= MOST_SITES)) {
     throw new Error(`The map shows from 1 to ${MOST_SITES} sites; the command line takes more.`);
   }
   const served = await servedCall(scene, map, info, jobs);
-  const call = {
-    verb: "site",
-    options: {
-      ...jobOptions("site", options),
-      ...searchOptions(search),
-      ...(haveHeights(search) ? {} : { "mast-height": field("site-height") }),
-      ...{ count: field("site-count"), output: SITES },
-      ...served.options,
-    },
-    uploads: served.uploads,
+  return { verb: "site", options: { ...siteOptions(scene.state), ...served.options }, uploads: served.uploads };
+}
+
+/** The choice that a call has made. @param {Job} job @param {Served} served  What was to be served.
+ * @returns {Promise<Plan>} */
+export async function planOf(job, served) {
+  const { document, files } = job;
+  const { cell_m: cell, count: wanted, radius_m: radius } = document.command;
+  const asked = askedOf(served, radius);
+  const placesOf = async (/** @type {string} */ table) => {
+    const file = files.find(({ name }) => name === `${SITES}/${table}`);
+    return file ? placesIn(await (await fetch(file.url)).text()) : null;
   };
-  return { call, asked: served.asked };
-}
-
-/** @param {Job} job @param {Pick<Plan["result"], "cell" | "asked" | "wanted">} asked @returns {Promise<Plan>} */
-async function planOf({ document, files }, asked) {
   const sites = sitesOf(document.chosen);
-  const table = files.find(({ name }) => name === `${SITES}/candidates.csv`);
-  const candidates = table ? placesIn(await (await fetch(table.url)).text()) : [];
-  const result = { value: document.value, demand: document.demand, gap: document.gap_percent, ...asked };
-  return { sites, selected: sites[0]?.id ?? -1, candidates, result };
+  const result = { value: document.value, demand: document.demand, gap: document.gap_percent, cell, wanted, asked };
+  return {
+    ...{ sites, selected: sites[0]?.id ?? -1, job },
+    candidates: (await placesOf("candidates.csv")) ?? [],
+    result: { ...result, points: asked.unit === "building" ? null : await placesOf("demand.csv") },
+  };
 }
 
-/** @param {World} world */
-export function makeSiteChoice(world) {
+/** What a choice depends on, in one order. @param {Served} served @param {import("../server/api.js").Options} options */
+function dependsOn({ kind, ...served }, { demand: _, ...options }) {
+  const what = "ring" in served ? served.ring : "upload" in served ? served.upload : null;
+  return [kind, what, Object.entries(options).sort()];
+}
+
+/** @param {World} world @param {string} gone  Says of a choice in the page's address that it is not there any more; else
+ *   empty. */
+export function makeSiteChoice(world, gone) {
   const { scene, views, jobs } = world;
-  const button = /** @type {HTMLButtonElement} */ (element("choose"));
   const run = new JobRun(element("choice-run"), jobs, "Choosing sites");
-  button.addEventListener("click", async () => {
-    const [cell, count] = [Number(scene.state.options.cell), Number(field("site-count"))];
+  element("choose").addEventListener("click", async () => {
+    const { served } = scene.state;
     scene.change({ plan: null });
-    /** @type {import("./served_form.js").Asked | null} */
-    let asked = null;
-    const job = await run.run(async () => {
-      const wanted = await siteCall(world);
-      asked = wanted.asked;
-      return wanted.call;
-    });
-    if (job && asked) scene.change({ plan: await planOf(job, { cell, asked, wanted: count }) });
+    const job = await run.run(() => siteCall(world));
+    if (job) scene.change({ plan: await planOf(job, served) });
   });
   element("plan-back").addEventListener("click", () => putBack(scene));
   element("plan-keep").addEventListener("click", () => keepAsMasts(scene));
-  const FIELDS = ["site-count", "site-height", "site-spacing"];
-  run.follow(scene, ["search", "served", "options"], () => [
-    scene.state.search,
-    scene.state.served,
-    jobOptions("site", scene.state.options),
-    ...FIELDS.map(field),
-  ]);
-  for (const name of FIELDS) element(name).addEventListener("change", () => run.compare());
+  run.follow(scene, ["search", "served", "options", "siting"], () =>
+    dependsOn(scene.state.served, siteOptions(scene.state)),
+  );
   scene.on(["search", "served"], () => run.forgive());
-  scene.on(["plan"], () => showPlan(scene));
+  scene.on(["plan"], () => {
+    const { plan, served } = scene.state;
+    if (plan) run.show(plan.job, dependsOn(served, plan.job.options));
+    showPlan(scene);
+  });
+  run.complain(gone);
   views.onChange(() => showNow(scene, views));
 }
 
@@ -199,9 +208,9 @@ const shownOfChoice = new WeakMap();
 
 /** How much the sites serve where they stand now; null where the page cannot tell.
  * @param {Plan} plan @param {import("../seen/picture.js").Source[]} sources */
-function servedNow({ result: { asked } }, sources) {
+function servedNow({ result: { asked, points } }, sources) {
   const serves = (/** @type {number} */ verdict) => verdict === VISIBLE;
-  if (asked.points) return countServed(asked.points, sources, serves);
+  if (points) return countServed(points, sources, serves);
   return asked.unit === "ground" ? tally(sources, serves).any : null;
 }
 

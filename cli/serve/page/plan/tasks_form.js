@@ -1,7 +1,8 @@
 // What is planned: masts, wind turbines, a choice of sites, or the buildings that masts serve.
 
 import { element } from "../panel/elements.js";
-import { problemText } from "../panel/page_words.js";
+import { inPageWords, problemText } from "../panel/page_words.js";
+import { UPLOADED } from "../server/api.js";
 
 /** @typedef {import("../state/scene.js").Scene} Scene */
 /** @typedef {import("../state/scene.js").Task} Task */
@@ -37,7 +38,7 @@ export function takeFiles(id, problem, take) {
       await take(file);
     } catch (error) {
       // The planner knows the file by its own name.
-      problem.textContent = problemText(error).replace(/upload-\d+\.\w+/g, file.name);
+      problem.textContent = problemText(error).replace(UPLOADED, file.name);
     }
   };
   input.addEventListener("change", () => {
@@ -47,6 +48,10 @@ export function takeFiles(id, problem, take) {
   });
   return takeFile;
 }
+
+/** What is wrong with rows of a file that was sent, in the words of the page.
+ * @param {import("../server/api.js").Upload} upload */
+export const warningsOf = ({ warnings }) => warnings.map((warning) => `${inPageWords(warning)}.`).join(" ");
 
 /** Takes files that are dropped anywhere on the page, which the browser would open in its place: places for sites where
  * these are planned, else layouts of turbines.

@@ -14,7 +14,7 @@ import {
   takeLayout,
   USUAL_SIZE,
 } from "../state/turbines.js";
-import { takeFiles } from "./tasks_form.js";
+import { takeFiles, warningsOf } from "./tasks_form.js";
 
 /** @typedef {import("../state/scene.js").Scene} Scene */
 /** @typedef {import("../seen/live_views.js").LiveViews} LiveViews */
@@ -42,7 +42,7 @@ export function makeTurbinePanel(scene, views, jobs, map) {
     takeLayout(scene, upload.places);
     const more = upload.places.length - MOST_TURBINES;
     element("layout-problem").textContent =
-      more > 0 ? `The map shows the first ${MOST_TURBINES}; the command line takes all.` : upload.warnings.join(". ");
+      (more > 0 ? `The map shows the first ${MOST_TURBINES}; the command line takes all. ` : "") + warningsOf(upload);
     showAll(map, upload.places);
   });
   const sum = element("turbine-sum");

@@ -1,6 +1,7 @@
 // The 3-D view over the map: opened by a button, which loads what draws it; it follows what the map shows.
 
 import { element } from "../panel/elements.js";
+import { entryElement } from "../panel/legend.js";
 import { problemText } from "../panel/page_words.js";
 import { metresText } from "../panel/words.js";
 import { HUES } from "../seen/palette.js";
@@ -84,6 +85,7 @@ class ReliefPanel {
 
   async #open() {
     this.#panel.hidden = false;
+    this.#panel.append(element("legend"));
     this.#said.textContent = "Loading the ground …";
     try {
       const state = this.scene.state;
@@ -96,7 +98,9 @@ class ReliefPanel {
       ]);
       if (this.#panel.hidden) return;
       this.#relief = new Relief(element("relief-picture"), this.#drape);
-      await this.#relief.take(bytes, this.#extent);
+      const colours = await this.#relief.take(bytes, this.#extent);
+      element("standing").hidden = colours.size === 0;
+      element("standing-list").replaceChildren(...Array.from(colours, ([name, css]) => entryElement([css, name, 1])));
       this.#said.textContent = "";
       this.#follow();
       this.#turn(false);
@@ -110,6 +114,7 @@ class ReliefPanel {
     this.#relief?.end();
     this.#relief = null;
     this.#panel.hidden = true;
+    element("map").append(element("legend"));
     element("relief-button").focus();
   }
 

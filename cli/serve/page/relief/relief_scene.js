@@ -59,21 +59,26 @@ export class ReliefScene {
   }
 
   /** Shows the triangles of a .glb file, with the drape over the extent. @param {ArrayBuffer} bytes
-   * @param {Extent} extent */
+   * @param {Extent} extent @returns {Promise<Map<string, string>>} the colours of what stands on the ground, by theme */
   async take(bytes, extent) {
     const { scene: model } = await new GLTFLoader().parseAsync(bytes, "");
     this.#origin = model.userData.origin;
     this.#size = Math.max(extent[2] - extent[0], extent[3] - extent[1]);
     this.#forget();
-    model.traverse((part) => part instanceof Mesh && this.#dress(part, extent));
+    /** @type {Map<string, string>} */
+    const colours = new Map();
+    model.traverse((part) => part instanceof Mesh && this.#dress(part, extent, colours));
     this.#ground.add(model);
     this.#resize();
+    return colours;
   }
 
-  /** Gives the ground its drape; what stands on it keeps its colour. @param {Mesh} mesh @param {Extent} extent */
-  #dress(mesh, [west, south, east, north]) {
+  /** Gives the ground its drape; what stands on it keeps its colour. @param {Mesh} mesh @param {Extent} extent
+   * @param {Map<string, string>} colours  Gets the colour. */
+  #dress(mesh, [west, south, east, north], colours) {
     const { name, color } = /** @type {any} */ (mesh.material);
     if (name !== TERRAIN) {
+      colours.set(name, `#${color.getHexString()}`);
       mesh.material = new MeshLambertMaterial({ color, side: DoubleSide, flatShading: true });
       return;
     }

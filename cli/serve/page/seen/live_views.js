@@ -30,8 +30,9 @@ const OF_OTHERS = ["probe", "line"];
 function tooManyCells({ radius, cell }) {
   const cells = (2 * Number(radius)) ** 2 / Number(cell) ** 2;
   if (!(cells > MOST_CELLS)) return "";
-  const least = Math.ceil((20 * Number(radius)) / Math.sqrt(MOST_CELLS)) / 10;
-  return `the map shows ${MOST_CELLS / 1e6} million cells at most: take a cell of ${least} m or more, or a smaller radius`;
+  const half = Math.sqrt(MOST_CELLS) / 2;
+  const [most, least] = [Math.floor(half * Number(cell)), Math.ceil((10 * Number(radius)) / half) / 10];
+  return `the map shows ${MOST_CELLS / 1e6} million cells at most: take a radius of ${most} m or less, or a cell of ${least} m or more`;
 }
 
 /** Whether anything of what was asked for last has come. @param {MastView} view */

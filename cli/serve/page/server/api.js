@@ -15,6 +15,7 @@
 /** @typedef {Record<string, string | string[]>} Options */
 /**
  * @typedef {object} Job
+ * @property {string} id @property {Options} options  What was asked.
  * @property {"queued" | "running" | "done" | "failed" | "cancelled"} state
  * @property {string | null} stage @property {number} share @property {number | null} seconds_left
  * @property {string | null} error @property {string} command
@@ -26,8 +27,11 @@
  * @property {number} x @property {number} y @property {string} [name] @property {number} [height_m]
  * @property {number} [hub_height_m] @property {number} [rotor_diameter_m] @property {number} [tip_height_m]
  */
-/** @typedef {{name: string, rows: number, places: UploadedPlace[], rings: number[][], warnings: string[]}} Upload */
+/** @typedef {{name: string, rows: number, unusable: number, places: UploadedPlace[], rings: number[][],
+ *    warnings: string[]}} Upload  `unusable` counts rows that have no place on the data. */
 
+/** The server's names for files that were sent. */
+export const UPLOADED = /upload-[0-9a-f]+\.\w+/g;
 const LOOK_EVERY = 300;
 /** @type {Record<string, string>} */
 const UPLOAD_TYPES = { csv: "text/csv", geojson: "application/geo+json", json: "application/geo+json" };
@@ -49,6 +53,17 @@ export const askInfo = () => ask("/api/v1/info");
 /** Understands a place as the command line does: easting,northing, degrees with N, S, E or W, or a grid reference.
  * @param {string} text @returns {Promise<KnownPlace>} */
 export const askPlace = (text) => ask(`/api/v1/place?at=${encodeURIComponent(text)}`);
+
+/** A job that has ended well, or null where the server has none of this id. @param {string} id
+ * @returns {Promise<Job | null>} */
+export async function askJob(id) {
+  const job = /** @type {Job | null} */ (await ask(`/api/v1/jobs/${encodeURIComponent(id)}`).catch(() => null));
+  return job?.state === "done" ? job : null;
+}
+
+/** What was told of a file that was sent, or null where the server has none of this name. @param {string} name
+ * @returns {Promise<Upload | null>} */
+export const askUpload = (name) => ask(`/api/v1/uploads/${encodeURIComponent(name)}`).catch(() => null);
 
 export class Jobs {
   /** @param {string} key */

@@ -4,6 +4,8 @@
 //
 // What is not about the page itself is an option of the command line under its own name.
 
+import { FIRST_SITING, isMoved } from "./plan.js";
+import { SERVED_KINDS, servedOf } from "./served.js";
 import { MOST_TURBINES } from "./turbines.js";
 
 /** @typedef {import("./scene.js").SceneState} SceneState */
@@ -14,8 +16,26 @@ import { MOST_TURBINES } from "./turbines.js";
 
 const OF_THE_PAGE = [
   ...["task", "mast", "selected", "show", "target", "relief", "contours", "draw", "at"],
-  ...["turbine", "part", "viewpoint", "area", "served"],
+  ...[
+    "turbine",
+    "part",
+    "viewpoint",
+    "area",
+    "candidates",
+    "served",
+    "count",
+    "mast-height",
+    "spacing",
+    "choice",
+    "site",
+  ],
 ];
+/** What is asked of sites, by the options' names. */
+const SITING = /** @type {const} */ ([
+  ["count", "count"],
+  ["mast-height", "height"],
+  ["spacing", "spacing"],
+]);
 const TASKS = ["masts", "turbines", "sites", "premises"];
 const SHOWS = ["together", "alone", "difference"];
 const RELIEFS = ["shade", "slope", "none"];
@@ -39,13 +59,26 @@ export function addressOf(state) {
 }
 
 /** What is planned beside masts. @param {SceneState} state @param {URLSearchParams} fields */
-function addPlans({ turbines, part, viewpoint, search, served }, fields) {
+function addPlans({ turbines, part, viewpoint, search, served, siting, plan }, fields) {
   for (const { x, y, hub, tip, name } of turbines) fields.append("turbine", [x, y, hub ?? "", tip, name].join(","));
   if (part !== "tips") fields.set("part", part);
   if (viewpoint) fields.set("viewpoint", `${viewpoint.x},${viewpoint.y}`);
   if (search && "ring" in search) fields.set("area", search.ring.join(","));
-  if (served.kind === "area" && served.ring) fields.set("served", served.ring.join(","));
-  if (served.kind === "view" || served.kind === "premises") fields.set("served", served.kind);
+  if (search && "upload" in search) fields.set("candidates", fileText(search));
+  if (served.kind !== "reach") fields.set("served", servedText(served));
+  for (const [name, field] of SITING) if (siting[field] !== FIRST_SITING[field]) fields.set(name, siting[field]);
+  if (!plan) return;
+  fields.set("choice", plan.job.id);
+  plan.sites.forEach((site, i) => isMoved(site) && fields.append("site", [i, site.x, site.y].join(",")));
+}
+
+/** A file that was sent: the server's name for it, and the planner's. @param {{upload: string, file: string}} sent */
+const fileText = ({ upload, file }) => `${upload},${file}`;
+
+/** An area, a file, or the word for either where it is not there yet. @param {import("./served.js").Served} served */
+function servedText(served) {
+  if (served.kind === "area" && served.ring) return served.ring.join(",");
+  return served.kind === "places" && served.upload ? fileText(served) : served.kind;
 }
 
 /** @param {string} text @param {number} count @returns {number[] | null} that many numbers, or null */
@@ -77,11 +110,33 @@ function readArea(text) {
   return ring && ring.length >= 6 && ring.length % 2 === 0 ? { ring } : null;
 }
 
+/** A file that was sent, as far as its address tells: by the server's name and its own. @param {string} text
+ * @returns {{upload: string, file: string, places: [], rings: [], rows: number} | null} */
+function readFile(text) {
+  const [, upload, file] = /^(upload-[^,]+),(.*)$/.exec(text) ?? [];
+  return upload ? { upload, file, places: [], rings: [], rows: 0 } : null;
+}
+
 /** @param {string} text @returns {import("./served.js").Served} */
 function readServed(text) {
-  if (text === "view" || text === "premises") return { kind: text };
+  const kind = SERVED_KINDS.find((some) => some === text);
+  if (kind) return servedOf(kind);
+  const file = readFile(text);
+  if (file) return { kind: "places", ...file };
   const area = readArea(text);
   return area ? { kind: "area", ...area } : { kind: "reach" };
+}
+
+/** The choice of sites that the address names, and where sites stand that were moved by hand.
+ * @param {string} text @returns {{job: string, moved: {site: number, x: number, y: number}[]} | null} */
+export function readChoice(text) {
+  const fields = new URLSearchParams(text);
+  const job = fields.get("choice");
+  const moved = fields.getAll("site").flatMap((place) => {
+    const values = numbers(place, 3);
+    return values ? [{ site: values[0], x: values[1], y: values[2] }] : [];
+  });
+  return job ? { job, moved } : null;
 }
 
 /** @param {URLSearchParams} fields @returns {Partial<SceneState>} */
@@ -93,8 +148,11 @@ function readPlans(fields) {
     turbine: turbines[0]?.id ?? null,
     part: fields.get("part") === "hubs" ? "hubs" : "tips",
     viewpoint: viewpoint && { x: viewpoint[0], y: viewpoint[1] },
-    search: readArea(fields.get("area") ?? ""),
+    search: readArea(fields.get("area") ?? "") ?? readFile(fields.get("candidates") ?? ""),
     served: readServed(fields.get("served") ?? ""),
+    siting: /** @type {SceneState["siting"]} */ (
+      Object.fromEntries(SITING.map(([name, field]) => [field, fields.get(name) ?? FIRST_SITING[field]]))
+    ),
   };
 }
 

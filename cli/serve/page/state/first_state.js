@@ -3,6 +3,8 @@
 /** @typedef {import("../server/api.js").Info} Info */
 /** @typedef {import("./scene.js").SceneState} SceneState */
 
+import { FIRST_SITING } from "./plan.js";
+
 const MOST_RADIUS = 10000;
 const CELLS_ACROSS = 500;
 const ROUND = [1, 2, 2.5, 5, 10];
@@ -34,6 +36,7 @@ export function firstState(info) {
     viewpoint: null,
     search: null,
     served: { kind: "reach" },
+    siting: FIRST_SITING,
     drawing: "search",
     plan: null,
     premises: null,

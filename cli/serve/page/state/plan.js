@@ -9,13 +9,20 @@
  * @property {Site[]} sites        In the order of the choice; where each stands now.
  * @property {number} selected     The id of a site.
  * @property {Place[]} candidates  Where else they may stand.
- * @property {{value: number, demand: number, gap: number, cell: number, wanted: number,
- *   asked: import("../plan/served_form.js").Asked}} result  Counts of cells, or of what else was to be served; `wanted`
- *   is the number of sites that were asked for.
+ * @property {{value: number, demand: number, gap: number, cell: number, wanted: number, asked: Asked,
+ *   points: Place[] | null}} result  Counts of cells, or of what else was to be served; `wanted` is the number of sites
+ *   that were asked for; `points` are the places that were to be served, where places were.
+ * @property {import("../server/api.js").Job} job  The call that made it, with its files.
  */
+/** @typedef {{what: string, unit: "ground" | "place" | "building"}} Asked  What was asked to be served, in words. */
+/** @typedef {{count: string, height: string, spacing: string}} Siting  How many sites, how high their masts, and how far
+ *    apart candidates are proposed, as it was typed. */
 /** @typedef {import("../server/api.js").UploadedPlace} UploadedPlace */
 /** @typedef {{ring: number[]} | {file: string, upload: string, places: UploadedPlace[], rings: number[][]}} Search
  *    An area that was drawn, [x0, y0, x1, y1, ...], or a file that was sent. */
+
+/** @type {Siting} */
+export const FIRST_SITING = { count: "3", height: "20", spacing: "" };
 
 /** So many sites the page shows; the command line takes more. */
 export const MOST_SITES = 8;

@@ -25,6 +25,7 @@
  * @property {Place | null} viewpoint  Where a wireline is seen from.
  * @property {import("./plan.js").Search | null} search  Where sites are looked for.
  * @property {import("./served.js").Served} served       What sites are to serve.
+ * @property {import("./plan.js").Siting} siting        What is asked of sites.
  * @property {"search" | "served"} drawing  Of which of these two an area is drawn.
  * @property {import("./plan.js").Plan | null} plan      The sites that were chosen.
  * @property {import("./premises.js").Building[] | null} premises  The buildings that were surveyed last.
@@ -75,6 +76,11 @@ export class Scene {
     return masts.find(({ id }) => id === target.mast && id !== selected) ?? null;
   }
 
+  /** What the next mast is called that is given no name. */
+  get nextName() {
+    return `Mast ${String.fromCharCode(65 + firstFree(this.state.masts.map(({ id }) => id)))}`;
+  }
+
   /** Adds a mast, and selects it. It is as high as the one selected, unless its height is given.
    * @param {Place & {name?: string, height?: number}} place */
   addMast(place) {
@@ -82,7 +88,7 @@ export class Scene {
     if (masts.length >= MOST_MASTS) return;
     const id = firstFree(masts.map((mast) => mast.id));
     const hue = firstFree(masts.map((mast) => mast.hue));
-    const mast = { id, hue, name: `Mast ${String.fromCharCode(65 + id)}`, height: this.mast?.height ?? 20, ...place };
+    const mast = { id, hue, name: this.nextName, height: this.mast?.height ?? 20, ...place };
     this.change({ masts: [...masts, mast], selected: id, placing: false });
   }
 
@@ -108,6 +114,9 @@ export class Scene {
     this.change({ options });
   }
 }
+
+/** The name that a text gives, or nothing. The address has names behind commas. @param {string} text */
+export const nameIn = (text) => text.trim().replaceAll(",", " ");
 
 /** @param {number[]} taken */
 function firstFree(taken) {

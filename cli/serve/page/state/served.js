@@ -18,6 +18,13 @@ export function servedOf(kind) {
   return kind === "places" ? { kind, file: "", upload: "", places: [], rows: 0 } : { kind };
 }
 
+/** Places of a file that was sent. @param {string} file  The planner's name for it.
+ * @param {import("../server/api.js").Upload} upload @returns {Served} */
+export const placesServed = (file, { name, rows, unusable, places }) => ({
+  ...{ kind: "places", file, upload: name, places },
+  rows: rows - unusable,
+});
+
 /** Whether a ring goes round a place. @param {number[]} ring @param {number} x @param {number} y */
 export function encloses(ring, x, y) {
   let inside = false;
