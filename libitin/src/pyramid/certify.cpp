@@ -26,10 +26,6 @@ namespace {
 
 /// The most points of a cell in rounds that measure without mending.
 constexpr std::uint32_t kFirstCell = 1 << 15;
-/// A cell of the rounds that mend has about this many points of the level that does not hold. The full surface under it
-/// has to be made anew, so it is no larger than it must be.
-constexpr double kLevelPoints = 128;
-constexpr std::uint32_t kLeastCell = 1 << 11, kGreatestCell = 1 << 15;
 /// With this many lines per leaf or more, verifying everything again takes no longer than finding what the lines
 /// changed.
 constexpr double kManyLines = 0.25;
@@ -62,35 +58,35 @@ class Disturbed {
   std::vector<std::atomic<unsigned>> levels_;
 };
 
-/// The capacity of the cells in which these levels are verified.
-struct Tiling {
-  std::uint32_t capacity;
+/// A cell, and the levels that are verified in it together.
+struct CellLevels {
+  CurveRange cell;
   unsigned levels;
 };
 
-std::vector<Tiling> tilings(const WorkingIndex& index) {
-  std::vector<Tiling> result;
-  const auto all = static_cast<double>(index.selected_points(0));
+std::vector<CellLevels> cells_to_measure(const WorkingIndex& index) {
+  std::vector<CellLevels> cells;
+  for (const CurveRange& cell : index.tiles(kFirstCell)) cells.push_back({cell, ~0u});
+  return cells;
+}
+
+std::vector<CellLevels> cells_to_mend(const WorkingIndex& index) {
+  std::map<Cell, CellLevels> cells;
   for (int k = 1; k < index.level_count(); ++k) {
-    const double wanted =
-        kLevelPoints * all / static_cast<double>(std::max<std::uint64_t>(1, index.selected_points(k)));
-    std::uint32_t capacity = kLeastCell;
-    while (capacity < wanted && capacity < kGreatestCell) capacity *= 4;
-    capacity = std::min(capacity, kGreatestCell);
-    if (result.empty() || result.back().capacity != capacity) result.push_back({capacity, 0});
-    result.back().levels |= 1u << k;
+    for (const CurveRange& cell : index.mending_cells(k))
+      cells.try_emplace(cell.cell, CellLevels{cell, 0}).first->second.levels |= 1u << k;
   }
+  std::vector<CellLevels> result;
+  for (const auto& [place, cell] : cells) result.push_back(cell);
   return result;
 }
 
-std::vector<Task> disturbed_cells(const WorkingIndex& index, const std::vector<Tiling>& tilings,
+std::vector<Task> disturbed_cells(const WorkingIndex& index, const std::vector<CellLevels>& cells,
                                   const Disturbed& disturbed) {
   std::vector<Task> tasks;
-  for (const Tiling& tiling : tilings) {
-    for (const CurveRange& cell : index.tiles(tiling.capacity)) {
-      const Task task = disturbed.in(index, cell, tiling.levels);
-      if (task.levels != 0) tasks.push_back(task);
-    }
+  for (const auto& [cell, levels] : cells) {
+    const Task task = disturbed.in(index, cell, levels);
+    if (task.levels != 0) tasks.push_back(task);
   }
   return tasks;
 }
@@ -218,7 +214,7 @@ LeafBounds certify(WorkingIndex& index, const std::vector<std::int32_t>& toleran
   CallProgress call(progress);
   Disturbed disturbed(index.ranges().size());
   const std::vector<unsigned> known =
-      measure_fine_levels(index, index.work_tiles(), posts, bounds, call.step(kFineLevels));
+      measure_fine_levels(index, index.work_cells(), posts, bounds, call.step(kFineLevels));
   for (std::uint32_t leaf = 0; leaf < index.ranges().size(); ++leaf)
     disturbed.mark(leaf, ((1u << levels) - 2) & ~known[leaf]);
 
@@ -226,7 +222,7 @@ LeafBounds certify(WorkingIndex& index, const std::vector<std::int32_t>& toleran
   bool changed = true;  // since all failing leaves were marked
   while (true) {
     const std::vector<Task> tasks =
-        disturbed_cells(index, mend ? tilings(index) : std::vector<Tiling>{{kFirstCell, ~0u}}, disturbed);
+        disturbed_cells(index, mend ? cells_to_mend(index) : cells_to_measure(index), disturbed);
     if (tasks.empty()) {
       if (!mark_failures(bounds, tolerances, index.ranges().size(), disturbed)) return bounds;
       // A store that promises what does not hold must not be written.

@@ -18,10 +18,8 @@ namespace {
 
 /// Tiles whose levels are held until they are written, because tiles read each other's heights.
 constexpr std::size_t kTilesAtOnce = 32;
-/// A level is fine where it has one in so many posts, or more, of so many tiles that lie evenly along the curve; of all
-/// tiles where they are fewer than twice as many.
+/// A level is fine where it has one in so many posts, or more.
 constexpr std::uint64_t kPostsPerFinePost = 2;
-constexpr std::size_t kSampledTiles = 16;
 
 /// The levels that the hierarchy gives to the posts of a window.
 ///
@@ -140,27 +138,31 @@ TileLevels levels_of_tile(const WorkingIndex& index, const CurveRange& tile, std
   return result;
 }
 
-void write_levels(WorkingIndex& index, const CurveRange& tile, const std::vector<std::uint8_t>& levels) {
-  if (levels.empty()) return;
+/// Writes a tile's levels. Returns the points that have a level already.
+std::vector<LevelRaise> write_levels(WorkingIndex& index, const CurveRange& tile,
+                                     const std::vector<std::uint8_t>& levels) {
+  std::vector<LevelRaise> given;
+  if (levels.empty()) return given;
   std::vector<RawPoint> points = index.read(tile);
-  for (std::size_t i = 0; i < points.size(); ++i)
-    if (levels[i] != kNoLevel) points[i].level = std::max<std::uint16_t>(points[i].level, levels[i]);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    RawPoint& p = points[i];
+    if (p.level != kDropped && p.level > 0) given.push_back({p.code, p.level});
+    if (levels[i] != kNoLevel) p.level = std::max<std::uint16_t>(p.level, levels[i]);
+  }
+  index.write(tile, points);
+  return given;
+}
+
+/// Makes points of a tile that have a coarser level than this one points of this level.
+void cut_levels(WorkingIndex& index, const CurveRange& tile, int coarsest) {
+  std::vector<RawPoint> points = index.read(tile);
+  for (RawPoint& p : points)
+    if (p.level != kDropped) p.level = std::min(p.level, static_cast<std::uint16_t>(coarsest));
   index.write(tile, points);
 }
 
-/// Finds the coarsest level that has half of all posts.
-int coarsest_fine_level(const WorkingIndex& index, const std::vector<CurveRange>& tiles,
-                        std::span<const std::int32_t> tolerances, Progress& progress) {
-  const std::size_t stride = std::max<std::size_t>(tiles.size() / kSampledTiles, 1);
-  std::vector<TileLevels> sample((tiles.size() + stride - 1) / stride);
-  parallel_for(sample.size(), [&](std::size_t i) {
-    progress.throw_if_cancelled();
-    sample[i] = levels_of_tile(index, tiles[i * stride], tolerances);
-  });
-  std::vector<std::uint64_t> posts(tolerances.size(), 0);
-  for (const TileLevels& tile : sample)
-    for (const std::uint8_t level : tile.levels)
-      if (level != kNoLevel) posts[level] += 1;
+/// Finds the coarsest level that has half of all posts, which are counted by their coarsest levels.
+int coarsest_fine_level(const std::vector<std::uint64_t>& posts) {
   const std::uint64_t all = std::accumulate(posts.begin(), posts.end(), std::uint64_t{0});
   std::uint64_t selected = 0;
   for (std::size_t k = posts.size(); k-- > 1;) {
@@ -173,21 +175,34 @@ int coarsest_fine_level(const WorkingIndex& index, const std::vector<CurveRange>
 }  // namespace
 
 PostHierarchy::PostHierarchy(WorkingIndex& index, const std::vector<CurveRange>& tiles,
-                             std::span<const std::int32_t> tolerances, Progress& progress)
-    : coarsest_(coarsest_fine_level(index, tiles, tolerances, progress)) {
-  if (coarsest_ == 0) return;
+                             std::span<const std::int32_t> tolerances, Progress& progress) {
+  std::vector<std::uint64_t> posts(tolerances.size(), 0);
+  std::vector<CurveRange> with_posts;
+  std::vector<LevelRaise> given;
   std::atomic<std::size_t> done = 0;
   for (std::size_t first = 0; first < tiles.size(); first += kTilesAtOnce) {
     std::vector<TileLevels> found(std::min(kTilesAtOnce, tiles.size() - first));
+    std::vector<std::vector<LevelRaise>> given_there(found.size());
     parallel_for(found.size(), [&](std::size_t i) {
       progress.throw_if_cancelled();
-      found[i] = levels_of_tile(index, tiles[first + i], tolerances.first(static_cast<std::size_t>(coarsest_) + 1));
+      found[i] = levels_of_tile(index, tiles[first + i], tolerances);
       progress.report("finding fine levels", static_cast<double>(++done) / static_cast<double>(tiles.size()));
     });
-    parallel_for(found.size(), [&](std::size_t i) { write_levels(index, tiles[first + i], found[i].levels); });
-    for (const TileLevels& tile : found)
-      if (!tile.blocks.empty()) blocks_[tile.lattice].insert(tile.blocks.begin(), tile.blocks.end());
+    parallel_for(found.size(),
+                 [&](std::size_t i) { given_there[i] = write_levels(index, tiles[first + i], found[i].levels); });
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      if (found[i].blocks.empty()) continue;
+      with_posts.push_back(tiles[first + i]);
+      blocks_[found[i].lattice].insert(found[i].blocks.begin(), found[i].blocks.end());
+      given.insert(given.end(), given_there[i].begin(), given_there[i].end());
+      for (const std::uint8_t level : found[i].levels)
+        if (level != kNoLevel) posts[level] += 1;
+    }
   }
+  coarsest_ = coarsest_fine_level(posts);
+  if (coarsest_ == 0) blocks_.clear();
+  parallel_for(with_posts.size(), [&](std::size_t i) { cut_levels(index, with_posts[i], coarsest_); });
+  index.promote(std::move(given));
 }
 
 bool PostHierarchy::has(Position p) const {

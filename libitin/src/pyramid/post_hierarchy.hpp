@@ -48,6 +48,10 @@ class SoundSquares {
 
 class PostHierarchy {
  public:
+  /// A post's level depends on heights within so many steps of it, and on the choice of fine levels, which is of all
+  /// posts.
+  static constexpr std::int64_t kReach = 2 * kBlockSide;
+
   /// Holds no posts.
   PostHierarchy() = default;
 

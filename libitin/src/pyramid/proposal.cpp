@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include <itin/parallel.hpp>
 
@@ -14,9 +15,14 @@ namespace itin {
 
 namespace {
 
+/// Tiles that are proposed at the same time. The levels of a tile are held, a byte a point, until those have been
+/// proposed that read its points.
+constexpr std::size_t kProposedAtOnce = 32;
+
 struct TileProposal {
   Proposal coverage;
-  std::vector<LevelRaise> beyond;  ///< points across the border
+  std::vector<std::uint8_t> levels;  ///< by the tile's points
+  std::vector<LevelRaise> beyond;    ///< points across the border
 };
 
 std::vector<std::uint8_t> levels_of(const TileSurvey& survey, std::span<const double> tolerances, std::size_t finest) {
@@ -41,20 +47,21 @@ std::size_t leave_fine_levels(const PostHierarchy& posts, TileSurvey& survey) {
   return all ? static_cast<std::size_t>(posts.coarsest_level()) + 1 : 1;
 }
 
-TileProposal propose(WorkingIndex& index, const CurveRange& tile, TileSurvey survey, std::span<const double> tolerances,
-                     const PostHierarchy& posts) {
+TileProposal propose(const WorkingIndex& index, const CurveRange& tile, TileSurvey survey,
+                     std::span<const double> tolerances, const PostHierarchy& posts) {
   const std::size_t finest = leave_fine_levels(posts, survey);
   const std::vector<SelectedVertex>& vertices = survey.surface.vertices;
   const std::vector<std::uint8_t> levels = levels_of(survey, tolerances, finest);
-  TileProposal proposal{{std::move(survey.outline), std::move(survey.isolated), {}}, {}};
-  std::vector<RawPoint> points = index.read(tile);
-  auto p = points.begin();
+  TileProposal proposal{{std::move(survey.outline), std::move(survey.isolated), {}}, {}, {}};
+  const std::vector<RawPoint> points = index.read(tile);
+  for (const RawPoint& p : points) proposal.levels.push_back(static_cast<std::uint8_t>(p.level));
+  std::size_t own_point = 0;
   for (std::size_t v = 0; v < vertices.size(); ++v) {
     const std::uint64_t code = code_of(vertices[v]);
     const bool own = tile.cell.contains(code);
     if (own) {
-      while (p->code < code) ++p;
-      p->level = levels[v];
+      while (points[own_point].code < code) ++own_point;
+      proposal.levels[own_point] = levels[v];
     } else if (levels[v] > vertices[v].level && survey.verge.contains(vertices[v].point.x, vertices[v].point.y)) {
       proposal.beyond.push_back({code, levels[v]});
     } else {
@@ -63,59 +70,78 @@ TileProposal propose(WorkingIndex& index, const CurveRange& tile, TileSurvey sur
     if (levels[v] > vertices[v].level && vertices[v].level < posts.coarsest_level())
       proposal.coverage.raised.push_back({code, levels[v]});
   }
-  index.write(tile, points);
   return proposal;
 }
 
-/// Waves of tiles: in each, no tile lies within another one's reach. Tiles are served first come, first served along
-/// the curve.
-std::vector<std::vector<std::size_t>> waves(const std::vector<CurveRange>& tiles) {
-  std::vector<GridBox> reaches;
-  for (const CurveRange& tile : tiles) reaches.push_back(reach_of(tile));
-  std::vector<std::vector<std::size_t>> result;
-  std::vector<std::size_t> wave_of(tiles.size());
-  for (std::size_t i = 0; i < tiles.size(); ++i) {
-    std::vector<std::uint8_t> taken(result.size() + 1, 0);
-    for (std::size_t j = 0; j < i; ++j) {
-      if (reaches[i].meets(square_of(tiles[j].cell)) || reaches[j].meets(square_of(tiles[i].cell)))
-        taken[wave_of[j]] = 1;
-    }
-    wave_of[i] = static_cast<std::size_t>(std::find(taken.begin(), taken.end(), 0) - taken.begin());
-    if (wave_of[i] == result.size()) result.emplace_back();
-    result[wave_of[i]].push_back(i);
-  }
-  return result;
+void write_proposed(WorkingIndex& index, const CurveRange& tile, const std::vector<std::uint8_t>& levels) {
+  std::vector<RawPoint> points = index.read(tile);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (points[i].level != kDropped) points[i].level = levels[i];
+  index.write(tile, points);
 }
 
-/// Raises points of tiles whose levels have been proposed; the others are still free to choose.
-void raise_in_proposed(WorkingIndex& index, const std::vector<CurveRange>& tiles,
-                       const std::vector<std::uint8_t>& proposed, std::vector<LevelRaise> raises) {
+/// Tells whether a tile is of the second wave: the squares of a chessboard take turns.
+bool is_second(const CurveRange& tile) {
+  const std::uint64_t quarter = tile.cell.code >> (2 * tile.cell.log2_side);
+  return ((quarter ^ quarter >> 1) & 1) != 0;
+}
+
+/// Proposes levels for the tiles of a wave as if none of them had any yet; `survey(tile)` gives the surface about a
+/// tile.
+template <class Survey>
+void propose_wave(WorkingIndex& index, const std::vector<CurveRange>& tiles, const std::vector<std::size_t>& wave,
+                  const Survey& survey, std::vector<TileProposal>& proposals) {
+  // The tiles of the wave, by their places in it, that read a tile's points.
+  std::vector<std::vector<std::uint32_t>> read_by(wave.size());
+  parallel_for(wave.size(), [&](std::size_t i) {
+    const GridBox reach = reach_of(tiles[wave[i]]);
+    for (std::uint32_t j = 0; j < wave.size(); ++j)
+      if (reach.meets(square_of(tiles[wave[j]].cell))) read_by[i].push_back(j);
+  });
+  std::vector<std::uint32_t> readers(wave.size(), 0);
+  for (const auto& read : read_by)
+    for (const std::uint32_t j : read) readers[j] += 1;
+  for (std::size_t first = 0; first < wave.size(); first += kProposedAtOnce) {
+    const std::size_t count = std::min(kProposedAtOnce, wave.size() - first);
+    parallel_for(count, [&](std::size_t i) { proposals[wave[first + i]] = survey(tiles[wave[first + i]]); });
+    std::vector<std::size_t> known;
+    for (std::size_t i = first; i < first + count; ++i)
+      for (const std::uint32_t j : read_by[i])
+        if (--readers[j] == 0) known.push_back(wave[j]);
+    parallel_for(known.size(), [&](std::size_t i) {
+      write_proposed(index, tiles[known[i]], std::exchange(proposals[known[i]].levels, {}));
+    });
+  }
+}
+
+/// Raises points that a tile of the second wave asks for across its border, those of tiles of the first wave alone.
+void raise_beyond(WorkingIndex& index, const std::vector<CurveRange>& tiles, std::vector<LevelRaise> raises) {
   std::erase_if(raises, [&](const LevelRaise& raise) {
     const auto after = std::upper_bound(tiles.begin(), tiles.end(), raise.code,
                                         [](std::uint64_t code, const CurveRange& t) { return code < t.cell.code; });
-    return !proposed[static_cast<std::size_t>(after - tiles.begin()) - 1];
+    return is_second(*std::prev(after));
   });
   index.promote(std::move(raises));
 }
 
-/// Proposes levels for all tiles, one wave after another; `survey(tile)` gives the surface about a tile.
+/// Proposes levels for all tiles; `survey(tile)` gives the surface about a tile.
 template <class Survey>
-std::vector<TileProposal> propose_in_waves(WorkingIndex& index, const std::vector<CurveRange>& tiles,
-                                           std::span<const double> tolerances, const PostHierarchy& posts,
-                                           Progress& progress, const Survey& survey) {
+std::vector<TileProposal> propose_all(WorkingIndex& index, const std::vector<CurveRange>& tiles,
+                                      std::span<const double> tolerances, const PostHierarchy& posts,
+                                      Progress& progress, const Survey& survey) {
+  std::vector<std::size_t> first, second;
+  for (std::size_t i = 0; i < tiles.size(); ++i) (is_second(tiles[i]) ? second : first).push_back(i);
   std::vector<TileProposal> proposals(tiles.size());
-  std::vector<std::uint8_t> proposed(tiles.size(), 0);
   std::atomic<std::size_t> done = 0;
-  for (const std::vector<std::size_t>& wave : waves(tiles)) {
-    parallel_for(wave.size(), [&](std::size_t i) {
-      progress.throw_if_cancelled();
-      const CurveRange& tile = tiles[wave[i]];
-      proposals[wave[i]] = propose(index, tile, survey(tile), tolerances, posts);
-      progress.report("choosing the levels", static_cast<double>(++done) / static_cast<double>(tiles.size()));
-    });
-    for (const std::size_t tile : wave) raise_in_proposed(index, tiles, proposed, proposals[tile].beyond);
-    for (const std::size_t tile : wave) proposed[tile] = 1;
-  }
+  const auto proposal_of = [&](const CurveRange& tile) {
+    progress.throw_if_cancelled();
+    TileProposal proposal = propose(index, tile, survey(tile), tolerances, posts);
+    progress.report("choosing the levels", static_cast<double>(++done) / static_cast<double>(tiles.size()));
+    return proposal;
+  };
+  propose_wave(index, tiles, first, proposal_of, proposals);
+  propose_wave(index, tiles, second, proposal_of, proposals);
+  for (const std::size_t tile : second) raise_beyond(index, tiles, std::move(proposals[tile].beyond));
   return proposals;
 }
 
@@ -134,8 +160,8 @@ Proposal together(const std::vector<TileProposal>& proposals) {
 Proposal propose_levels(WorkingIndex& index, const std::vector<CurveRange>& tiles,
                         const std::vector<std::array<double, 4>>& gap_bases, std::span<const double> tolerances,
                         const PostHierarchy& posts, Progress& progress) {
-  return together(propose_in_waves(index, tiles, tolerances, posts, progress,
-                                   [&](const CurveRange& tile) { return survey_tile(index, tile, gap_bases); }));
+  return together(propose_all(index, tiles, tolerances, posts, progress,
+                              [&](const CurveRange& tile) { return survey_tile(index, tile, gap_bases); }));
 }
 
 Proposal find_ground(const WorkingIndex& index, const std::vector<CurveRange>& tiles,
@@ -155,8 +181,8 @@ Proposal find_ground(const WorkingIndex& index, const std::vector<CurveRange>& t
 
 Proposal propose_levels_with_lines(WorkingIndex& index, const std::vector<CurveRange>& tiles,
                                    std::span<const double> tolerances, const PostHierarchy& posts, Progress& progress) {
-  return together(propose_in_waves(index, tiles, tolerances, posts, progress,
-                                   [&](const CurveRange& tile) { return survey_surface(index, tile); }));
+  return together(propose_all(index, tiles, tolerances, posts, progress,
+                              [&](const CurveRange& tile) { return survey_surface(index, tile); }));
 }
 
 }  // namespace itin

@@ -20,12 +20,18 @@ struct Proposal {
   std::vector<LevelRaise> raised;       ///< posts of the hierarchy that it had left to finer levels
 };
 
+/// How far a tile's proposed levels depend on others: on the tiles that it reaches or that reach it (reach_of()), so
+/// many times over. The first time is for a tile of the second wave, which raises points of the tile; the second for
+/// one of the first wave, whose levels that one starts from; the third for one whose points that one sees. The fine
+/// levels of posts there depend on PostHierarchy::kReach posts more.
+inline constexpr int kReachesOfProposal = 3;
+
 /// Writes the levels that the points should have, as far as one tile can tell; certify.hpp has the last word.
 ///
-/// A tile's greedy insertion starts from the levels that its neighbours have already, so that both sides of a border
-/// agree. Hence the tiles come in waves. Tiles of one wave are so far apart that none sees another's points, and the
-/// outcome depends on the points alone, not on threads. A tile may also raise points just across its border that
-/// earlier waves left too fine.
+/// The tiles come in two waves, like the squares of a chessboard. A tile of the second wave starts from the levels that
+/// its neighbours have already, so that both sides of a border agree. It may also raise points just across its border
+/// that the first wave left too fine. Tiles of one wave see nothing of each other's choice. So the outcome depends on
+/// the points near by (kReachesOfProposal), not on threads and not on how many tiles there are.
 ///
 /// Posts of the hierarchy have their fine levels already.
 ///

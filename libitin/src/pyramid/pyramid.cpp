@@ -150,7 +150,7 @@ class PyramidBuild {
 
   void index_points() {
     index_.emplace(points_, levels_, kLeafCapacity);
-    tiles_ = index_->work_tiles();
+    tiles_ = index_->work_cells();
   }
 
   /// All points that were imported, even where the surface's points have become more.

@@ -14,7 +14,7 @@ namespace {
 std::vector<GridEdge> outline_of(SortedPoints points, const std::vector<SourceInfo>& sources, const Grid& grid,
                                  Progress& progress) {
   const WorkingIndex index(points, 1, kLeafCapacity);
-  const Proposal ground = find_ground(index, index.work_tiles(), gap_bases_of(sources, grid), nullptr, progress);
+  const Proposal ground = find_ground(index, index.work_cells(), gap_bases_of(sources, grid), nullptr, progress);
   std::vector<GridEdge> edges;
   for (const Segment& s : join_collinear(ground.outline)) edges.push_back({s.a(), s.b()});
   return edges;

@@ -16,6 +16,9 @@ constexpr std::size_t kReadAhead = 1 << 16;
 /// Room for the blocks of coarse points. Over smooth ground a tenth of all points has a coarse level; those of 20
 /// million points fit.
 constexpr std::uint64_t kCoarseBlockBytes = 32 << 20;
+/// A mended cell has no more points of the level that does not hold, unless it has few points at all: the full surface
+/// under it has to be made anew.
+constexpr std::uint64_t kMendedOfLevel = 512, kLeastMended = 1 << 11, kMostMended = 1 << 15;
 /// Marks the key of a leaf's points of level 1 and coarser.
 constexpr std::uint64_t kCoarse = std::uint64_t{1} << 32;
 
@@ -169,21 +172,24 @@ std::uint64_t WorkingIndex::selected_points(int level) const {
   return points;
 }
 
-std::vector<CurveRange> WorkingIndex::tiles(std::uint32_t capacity) const {
+template <class Fits>
+std::vector<CurveRange> WorkingIndex::largest_cells(int level, const Fits& fits) const {
   std::vector<CurveRange> result;
-  for (std::size_t i = 0; i < ranges_.size();) {
-    // Tiles grow from the leaf to the largest aligned ancestor that is not too full: siblings follow on the curve.
+  for (std::uint32_t i = 0; i < ranges_.size();) {
+    // Cells grow from the leaf to the largest aligned ancestor that is not too full: siblings follow on the curve.
     CurveRange tile = ranges_[i];
-    std::size_t end = i + 1;
+    std::uint64_t of_level = selected(i, level);
+    std::uint32_t end = i + 1;
     while (tile.cell.log2_side < kRootLog2Side) {
       const Cell larger = tile.cell.parent();
       if (larger.code != tile.cell.code) break;
-      std::uint64_t count = tile.count;
-      std::size_t j = end;
-      for (; j < ranges_.size() && ranges_[j].cell.code < larger.end() && count <= capacity; ++j)
-        count += ranges_[j].count;
-      if (count > capacity) break;
+      std::uint64_t count = tile.count, selected_points = of_level;
+      std::uint32_t j = end;
+      for (; j < ranges_.size() && ranges_[j].cell.code < larger.end() && fits(count, selected_points); ++j)
+        count += ranges_[j].count, selected_points += selected(j, level);
+      if (!fits(count, selected_points)) break;
       tile = {larger, tile.first, static_cast<std::uint32_t>(count)};
+      of_level = selected_points;
       end = j;
     }
     if (square_of(tile.cell).meets(bounds_)) result.push_back(tile);
@@ -192,8 +198,14 @@ std::vector<CurveRange> WorkingIndex::tiles(std::uint32_t capacity) const {
   return result;
 }
 
-std::vector<CurveRange> WorkingIndex::work_tiles() const {
-  return tiles(static_cast<std::uint32_t>(std::clamp<std::uint64_t>(points_.size() / 32, 1 << 15, 1 << 18)));
+std::vector<CurveRange> WorkingIndex::tiles(std::uint32_t capacity) const {
+  return largest_cells(0, [&](std::uint64_t points, std::uint64_t) { return points <= capacity; });
+}
+
+std::vector<CurveRange> WorkingIndex::mending_cells(int level) const {
+  return largest_cells(level, [&](std::uint64_t points, std::uint64_t of_level) {
+    return points <= kLeastMended || (points <= kMostMended && of_level <= kMendedOfLevel);
+  });
 }
 
 std::vector<RawPoint> WorkingIndex::read(const CurveRange& range) const {

@@ -58,8 +58,11 @@ class WorkingIndex final : public PointIndex {
   std::uint64_t selected_points(int level) const;
   /// Coarser cells with at most `capacity` points each, perhaps none, that together cover bounds().
   std::vector<CurveRange> tiles(std::uint32_t capacity) const;
-  /// Tiles to work on at the same time: few borders, but still enough for all threads.
-  std::vector<CurveRange> work_tiles() const;
+  /// The cells that levels are chosen in. They follow from the points near by, however many there are elsewhere.
+  std::vector<CurveRange> work_cells() const { return tiles(kWorkCell); }
+  /// The cells that a level is mended in: with few points of the level, or few points at all. They follow from the
+  /// points near by, too.
+  std::vector<CurveRange> mending_cells(int level) const;
 
   std::vector<RawPoint> read(const CurveRange& range) const;
   void write(const CurveRange& range, std::span<const RawPoint> points);
@@ -79,6 +82,12 @@ class WorkingIndex final : public PointIndex {
   const std::vector<Segment>& all_segments() const { return segments_; }
 
  private:
+  /// The most points of a work cell. Larger ones have fewer borders; smaller ones change less where points are added.
+  static constexpr std::uint32_t kWorkCell = 1 << 16;
+
+  /// The largest cells, or leaves, for which fits(points, points of the level) holds, which must hold for their parts.
+  template <class Fits>
+  std::vector<CurveRange> largest_cells(int level, const Fits& fits) const;
   std::shared_ptr<const Block> read_block(std::uint32_t leaf, int finest) const;
   /// Appends the leaves that segment pq meets, and perhaps some beside it or twice.
   void leaves_along(Point2 p, Point2 q, std::vector<std::uint32_t>& out) const;

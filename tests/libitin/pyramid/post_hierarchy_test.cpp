@@ -12,62 +12,13 @@
 
 #include "pyramid/cell_verification.hpp"
 #include "pyramid/fine_bounds.hpp"
-#include "support/points.hpp"
+#include "support/post_ground.hpp"
 #include "support/seed.hpp"
 
 namespace itin {
 namespace {
 
-const std::vector<std::int32_t> kHierarchyTolerances{0, 30, 60, 120, 600};
-
-/// A raster with hills and perhaps holes; and perhaps points and a line that are none of its posts.
-struct PostGround {
-  std::int32_t step = 10, columns = 0, rows = 0;
-  LatticePlace first;  ///< on the lattice from position 0, 0
-  std::map<Position, std::int32_t> heights;
-  std::vector<GridPoint> strays;
-  std::vector<Segment> lines;
-
-  Position at(std::int64_t column, std::int64_t row) const {
-    return {static_cast<std::int32_t>(column * step), static_cast<std::int32_t>(row * step)};
-  }
-  std::int64_t east() const { return first.column + columns - 1; }
-  std::int64_t north() const { return first.row + rows - 1; }
-};
-
-PostGround random_ground(unsigned seed) {
-  std::mt19937 random(seed);
-  const auto draw = [&](int low, int high) { return std::uniform_int_distribution<int>(low, high)(random); };
-  PostGround ground;
-  ground.step = draw(3, 40);
-  ground.columns = draw(70, 150), ground.rows = draw(70, 150);
-  ground.first = {draw(-200, 200), draw(-200, 200)};
-  const double scale = draw(20, 200) / 10.0;
-  const int rough = draw(0, 60), gaps = std::array{0, 1, 40}[static_cast<std::size_t>(draw(0, 2))];
-  for (std::int64_t r = ground.first.row; r <= ground.north(); ++r) {
-    for (std::int64_t c = ground.first.column; c <= ground.east(); ++c) {
-      const double hill =
-          400 * std::sin(static_cast<double>(c) / scale) * std::cos(static_cast<double>(r) / scale / 1.3);
-      const bool flat = c % 50 < 20;
-      if (draw(0, 999) >= gaps) ground.heights[ground.at(c, r)] = static_cast<int>(flat ? 7 : hill) + draw(0, rough);
-    }
-  }
-  const auto anywhere = [&] {
-    return Position{ground.at(ground.first.column, 0).x + draw(0, ground.columns * ground.step),
-                    ground.at(0, ground.first.row).y + draw(0, ground.rows * ground.step)};
-  };
-  if (draw(0, 1) == 0) {
-    for (int i = draw(1, 5); i > 0; --i) {
-      const Position p = anywhere();
-      if (!ground.heights.contains(p)) ground.strays.push_back({p.x, p.y, 0});
-    }
-  }
-  if (draw(0, 1) == 0) {
-    const Position a = anywhere(), b = anywhere();
-    if (a != b) ground.lines.push_back({a.x, a.y, b.x, b.y, 1});
-  }
-  return ground;
-}
+using test::index_of, test::kHierarchyTolerances, test::levels_in, test::PostGround, test::random_ground;
 
 /// The levels by their definition, found slowly.
 class SlowHierarchy {
@@ -252,24 +203,9 @@ class SlowHierarchy {
   int coarsest_ = 0;
 };
 
-test::TestIndex index_of(const PostGround& ground) {
-  std::vector<test::LevelPoint> points;
-  for (const auto& [p, height] : ground.heights) points.push_back({{p.x, p.y, height}, 0});
-  for (const GridPoint& p : ground.strays) points.push_back({p, 0});
-  test::TestIndex index(points, static_cast<int>(kHierarchyTolerances.size()), 64);
-  index->set_segments(ground.lines);
-  return index;
-}
-
-std::map<Position, int> levels_in(const WorkingIndex& index) {
-  std::map<Position, int> levels;
-  for (const CurveRange& tile : index.tiles(1 << 30))
-    for (const RawPoint& p : index.read(tile)) levels[position_of(p.code)] = p.level;
-  return levels;
-}
-
 TEST(PostHierarchies, GiveTheLevelsOfTheirDefinitionWhateverTheTiles) {
   NoProgress progress;
+  std::mt19937 random(test::seed());
   int fine = 0;
   for (unsigned round = 0; round < 12; ++round) {
     SCOPED_TRACE(round);
@@ -279,11 +215,18 @@ TEST(PostHierarchies, GiveTheLevelsOfTheirDefinitionWhateverTheTiles) {
     const std::map<Position, int> expected = slow.levels();
     for (const std::uint32_t capacity : {1U << 11, 1U << 18}) {
       test::TestIndex index = index_of(ground);
+      std::map<Position, int> given;
+      for (int i = 0; i < 20; ++i) {
+        const auto post = std::next(ground.heights.begin(), static_cast<int>(random() % ground.heights.size()));
+        given[post->first] = static_cast<int>(1 + random() % 4);
+      }
+      for (const auto& [p, level] : given) index->promote({{code_of(p), level}});
       const PostHierarchy hierarchy(*index, index->tiles(capacity), kHierarchyTolerances, progress);
       EXPECT_EQ(hierarchy.coarsest_level(), slow.coarsest());
       for (const auto& [p, level] : levels_in(*index)) {
         const auto found = expected.find(p);
-        ASSERT_EQ(level, found == expected.end() ? 0 : found->second) << p.x << ' ' << p.y;
+        const int least = given.contains(p) ? given.at(p) : 0;
+        ASSERT_EQ(level, std::max(least, found == expected.end() ? 0 : found->second)) << p.x << ' ' << p.y;
         if (slow.coarsest() == 0) continue;
         ASSERT_EQ(hierarchy.has(p), found != expected.end()) << p.x << ' ' << p.y;
       }
@@ -317,7 +260,6 @@ TEST(PostHierarchies, StayClosedWherePostsAreRaised) {
 
 TEST(PostHierarchies, DependOnHeightsNearByAlone) {
   NoProgress progress;
-  constexpr std::int64_t kReach = 128;
   for (unsigned round = 0; round < 6; ++round) {
     SCOPED_TRACE(round);
     PostGround ground = random_ground(test::seed() + 200 + round);
@@ -334,7 +276,7 @@ TEST(PostHierarchies, DependOnHeightsNearByAlone) {
     const auto after = levels();
     if (before.first != after.first) continue;  // the choice of fine levels is of the whole
     for (const auto& [p, level] : before.second) {
-      if (p.x <= (end + kReach) * ground.step) continue;
+      if (p.x <= (end + PostHierarchy::kReach) * ground.step) continue;
       ASSERT_EQ(after.second.at(p), level) << p.x << ' ' << p.y;
     }
   }
