@@ -46,7 +46,7 @@ def test_reference_has_an_anchor_for_every_option(program: verbs.Program) -> Non
     "words, completed",
     [
         (["view"], ["viewshed"]),
-        (["viewshed", "hills.itin", "--obs"], ["--observer", "--observers", "--observer-height", "--observer-absolute", "--observer-on"]),
+        (["viewshed", "hills.itin", "--obs"], ["--observer", "--observer-name", "--observers", "--observer-height", "--observer-absolute", "--observer-on"]),
         (["viewshed", "--mode", "ce"], ["certified"]),
         (["viewshed", "--mode", "=", "ce"], ["certified"]),
         (["los", "hi"], ["hills.itin"]),
