@@ -93,6 +93,11 @@ TEST(Wirelines, ShiftTheirFrameToTheSkyline) {
   const double azimuth = 60 * std::numbers::pi / 180;
   view.query.turbines = {{"1", {5000 * std::sin(azimuth), 5000 * std::cos(azimuth)}, 0, 80, 130, false, "", 0}};
   EXPECT_LT(height_of(12) - horizon_shift(view, strip), kHeight / 2);
+  // A wall in the middle moves no tip out of the frame.
+  Wireline wall = skyline(60, 0);
+  wall.query.turbines = view.query.turbines;
+  const double tip = height_of(std::atan2(130, 5000) * 180 / std::numbers::pi);
+  EXPECT_GT(tip - horizon_shift(wall, strip), -kHeight / 2);
 }
 
 TEST(Wirelines, BeginAtTheFeetOfTheEye) {

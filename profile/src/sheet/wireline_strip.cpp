@@ -62,17 +62,20 @@ double horizon_shift(const Wireline& view, const WirelineStrip& strip) {
   constexpr double kRoom = 22;                    // points above a tip, for its number
   constexpr double kMostTips = 0.4, kMost = 0.9;  // of the frame's height
   const double middle = middle_of(view, strip), height = strip.frame.height();
-  double tips = 0, skyline = on_paper(strip, 0, skyline_deg(view, middle)).y;
+  double tips = 0, lowest_tip = height, skyline = on_paper(strip, 0, skyline_deg(view, middle)).y;
   for (const PlacedTurbine& t : placed_turbines(view.query)) {
     const double across = t.across - middle;
     if (std::abs(across) > strip.width_deg / 2) continue;
-    tips = std::max(tips, on_paper(strip, across, t.top).y);
+    const double tip = on_paper(strip, across, t.top).y;
+    tips = std::max(tips, tip), lowest_tip = std::min(lowest_tip, tip);
     skyline = std::max(skyline, on_paper(strip, across, skyline_deg(view, t.across)).y);
   }
   const auto shift = [&](double highest, double most) {
     return std::clamp(highest + kRoom - height / 2, 0.0, most * height);
   };
-  return std::max(shift(tips, kMostTips), shift(skyline, kMost));
+  // The skyline moves no tip out of the frame.
+  return std::max(shift(tips, kMostTips),
+                  std::min(shift(skyline, kMost), std::max(0.0, height / 2 + lowest_tip - kRoom)));
 }
 
 void draw_strip(Drawing& drawing, const Wireline& view, const WirelineStrip& strip) {
