@@ -73,8 +73,10 @@ class CoverageCurve {
           across(i), down(share(i - 1)), down(share(i)), across(i - 1));
       if (sites() > kNamed && i % 5 != 0 && i > 1) continue;
       const std::string& name = result_.place_of(result_.choice.chosen[i - 1]).name;
-      svg += fmt::format("<text x=\"{:.2f}%\" y=\"{}\" text-anchor=\"middle\">{}</text>\n", across(i),
-                         kHeight - kBottom + 16, sites() > kNamed ? fmt::format("{}", i) : escaped_markup(name));
+      const bool at_the_edge = i == sites() && sites() <= kNamed;  // a long name ends where the page does
+      svg += fmt::format("<text x=\"{:.2f}%\" y=\"{}\" text-anchor=\"{}\">{}</text>\n", at_the_edge ? 100 : across(i),
+                         kHeight - kBottom + 16, at_the_edge ? "end" : "middle",
+                         sites() > kNamed ? fmt::format("{}", i) : escaped_markup(name));
     }
     return svg;
   }

@@ -61,8 +61,8 @@ class RequestFiles {
   template <class Complete>
   viewshed::SitePlaces places_of(const SiteQuery& query, viewshed::SitePlaces places, const Complete& complete) const {
     places.source = query.path;
-    for (Site& site : read_sites(query, crs_, places.warnings, places.left_out)) {
-      places.places.push_back({.position = site.position, .height = site.height, .origin = std::move(site.place)});
+    for (const Site& site : read_sites(query, crs_, places.warnings, places.left_out)) {
+      places.places.push_back({.position = site.position, .height = site.height, .origin = site.place});
       complete(site, places.places.back());
     }
     return places;
@@ -78,6 +78,11 @@ class RequestFiles {
       query.numbers.push_back({field});
     }
     return places;
+  }
+
+  /// Returns the name of a row; its number from 0 where no field has names.
+  static std::string name_of(const Site& site, const SiteQuery& query) {
+    return query.name_field.empty() ? std::to_string(site.row) : site.name;
   }
 
   static double number_of(const Site& site, double without_field) {
@@ -115,7 +120,25 @@ class RequestFiles {
       }
       joined.push_back(std::move(place));
     }
+    for (viewshed::SitePlace& mast : joined)
+      if (mast.sectors.size() > 1) mast.name = name_of_mast(mast);
     places.places = std::move(joined);
+  }
+
+  /// Returns what the names of a mast's sectors begin with, up to a blank or a mark: "Cwm" of "Cwm A" and "Cwm B".
+  /// Where they have no such beginning, the first sector's name is the mast's.
+  static std::string name_of_mast(const viewshed::SitePlace& mast) {
+    static constexpr const char* kMarks = " -_/.,:;(";
+    const std::string& first = mast.sectors.front().name;
+    std::size_t common = first.size();
+    for (const viewshed::SiteSector& sector : mast.sectors) {
+      const auto differs = std::ranges::mismatch(first, sector.name).in1;
+      common = std::min(common, static_cast<std::size_t>(differs - first.begin()));
+    }
+    if (common == first.size()) return first;
+    const std::size_t mark = first.substr(0, common).find_last_of(kMarks);
+    const std::size_t last = mark == std::string::npos ? mark : first.find_last_not_of(kMarks, mark);
+    return last == std::string::npos ? first : first.substr(0, last + 1);
   }
 
   void read_candidates() {
@@ -123,8 +146,9 @@ class RequestFiles {
     query.crs = options_.in_crs.crs;
     viewshed::SitePlaces begun = with_number(query, options_.cost_field, "cost", "--cost-field");
     auto antennas = antennas_of(query);
+    take_names(query, LayerFields(query));
     request_.candidates = places_of(query, std::move(begun), [&](const Site& site, viewshed::SitePlace& candidate) {
-      candidate.name = query.name_field.empty() ? std::to_string(site.row) : site.name;
+      candidate.name = name_of(site, query);
       candidate.cost = options_.cost_field.empty() ? 0 : number_of(site, 0);
       take_antenna(antennas, site, candidate);
     });
@@ -138,8 +162,9 @@ class RequestFiles {
   void read_existing() {
     SiteQuery query = query_of(options_.existing, options_.existing_height_field);
     auto antennas = antennas_of(query);
+    take_names(query, LayerFields(query));
     request_.existing = places_of(query, {}, [&](const Site& site, viewshed::SitePlace& place) {
-      place.name = site.name;
+      place.name = name_of(site, query);
       take_antenna(antennas, site, place);
     });
     join_sectors(request_.existing);
@@ -174,7 +199,7 @@ class RequestFiles {
     viewshed::SitePlaces begun = with_number(query, options_.weight_field, "weight", "--weight-field");
     take_names(query, LayerFields(query));
     demand.points = places_of(query, std::move(begun), [&](const Site& site, viewshed::SitePlace& point) {
-      point.name = query.name_field.empty() ? std::to_string(site.row) : site.name;
+      point.name = name_of(site, query);
       point.weight = number_of(site, 1);
     });
   }

@@ -37,11 +37,16 @@ void TurbineOptions::declare(CLI::App& app) {
   field("--rotor-diameter-field", file_.rotor_diameter_field, "rotor diameters");
   field("--tip-height-field", file_.tip_height_field, "heights of blade tips");
   field("--farm-field", file_.farm_field, "farms");
-  if (use_ == Use::zone)
+  if (use_ == Use::zone) {
     field(
         "--status-field", file_.status_field,
         "whether each is proposed, consented or existing: with others, the study area is about the proposed ones, and "
         "what they add is told");
+    app.add_option("--proposal", file_.proposal,
+                   "The farm that is the proposal; other farms, proposed ones too, stand beside it (default: all "
+                   "proposed turbines)")
+        ->type_name("FARM");
+  }
   size_.declare(app, "of turbines whose row gives none");
   app.add_option("--farm", file_.farm, "Farm of turbines whose row gives none")->type_name("NAME");
   in_crs_.declare(app);
@@ -77,7 +82,7 @@ Document TurbineOptions::parameters() const {
   if (file_.tip_height_field != usual.tip_height_field) parameters["tip_height_field"] = file_.tip_height_field;
   if (file_.farm_field != usual.farm_field) parameters["farm_field"] = file_.farm_field;
   if (use_ == Use::zone && file_.status_field != usual.status_field) parameters["status_field"] = file_.status_field;
-  text("farm", file_.farm), text("in_crs", in_crs_.crs);
+  text("proposal", file_.proposal), text("farm", file_.farm), text("in_crs", in_crs_.crs);
   return parameters;
 }
 

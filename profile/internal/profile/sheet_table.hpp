@@ -19,7 +19,7 @@ struct SheetTable {
   /// Its part of the width, while the others share the rest alike. Where that would cut a text, columns are as wide as
   /// their texts are.
   double first_column = 0.2;
-  std::string elsewhere = {};  ///< the file that has all rows
+  std::string rest = {};  ///< what the rows are that are left out, the last ones; may be empty
 };
 
 }  // namespace itin::profile

@@ -10,7 +10,6 @@
 // The drawing is a cylinder rolled out: a degree of azimuth is as long as a degree of elevation. Seen from the distance
 // that it states, with one eye level with the horizon's middle, it covers what the eye sees. Nothing is sampled along a
 // line of sight; across, there is a line every `step_deg`.
-// sight; across, there is a line every `step_deg`.
 #pragma once
 
 #include <optional>

@@ -15,7 +15,7 @@ namespace itin::profile {
 
 namespace {
 
-constexpr double kNearest = 20;   ///< metres: anything nearer is the ground at the viewer's feet
+constexpr double kNearest = 2;    ///< metres: anything nearer is the ground at the viewer's feet
 constexpr double kGrowth = 1.12;  ///< a band ends at most this many times as far away as it begins
 
 /// Returns the limits between bands. The turbines' distances are among them, so that each turbine stands between two
@@ -90,7 +90,7 @@ void validate(const WirelineQuery& query) {
     throw InputError(
         fmt::format("a wireline of {:g} degrees in steps of {:g}: give a width up to 360 and smaller steps",
                     query.width_deg, query.step_deg));
-  if (!(query.reach_m > kNearest)) throw InputError("a wireline must reach farther than 20 m");
+  if (!(query.reach_m > kNearest)) throw InputError(fmt::format("a wireline must reach farther than {:g} m", kNearest));
 }
 
 }  // namespace

@@ -79,6 +79,12 @@ std::string radios_text(const BudgetQuery& query) {
   add("gain of the receiver", "dBi", query.to_gain_dbi);
   add("its feeder loss", "dB", query.to_feeder_db);
   if (query.sensitivity_dbm) text += fmt::format(", sensitivity {:g} dBm", *query.sensitivity_dbm);
+  const auto add_aim = [&](const char* whose, const AimedAntenna& antenna) {
+    if (antenna.azimuth_deg) text += fmt::format(", {} towards {:g}°", whose, *antenna.azimuth_deg);
+    if (antenna.tilt_deg) text += fmt::format(", {} tilted {:g}° down", whose, *antenna.tilt_deg);
+  };
+  add_aim("antenna", query.from_antenna);
+  add_aim("antenna of the receiver", query.to_antenna);
   return text;
 }
 

@@ -60,6 +60,8 @@ class PageColumn {
       : drawing_(drawing), left_(left), width_(width), y_(top) {}
 
   double y() const { return y_; }
+  /// Leaves what is above for something else.
+  void go_on_at(double y) { y_ = y; }
   bool has_room_for(const Table& table, double bottom = kHeight - kMargin) const;
   /// The number of the table's rows that fit.
   std::size_t rows_that_fit(const Table& table, double bottom) const;

@@ -6,6 +6,7 @@
 
 #include "report/fade.hpp"
 #include "report/formats.hpp"
+#include "report/location_figure.hpp"
 #include "report/page.hpp"
 #include "report/path_tables.hpp"
 #include "report/sight_chart.hpp"
@@ -58,15 +59,25 @@ class TablePages {
 
   void draw() {
     for (const Table& table : result_tables(report_)) place(table, table.second_column ? 1 : 0).set(table);
-    if (!has_trade_off(report_)) return;
-    if (columns_[shorter()].y() + kLeastChart > kHeight - kMargin) begin_page();
-    const std::size_t i = shorter();
-    const double x = left_of(i), y = columns_[i].y();
-    draw_trade_off_chart(drawing_, {x, y, x + kHalf, std::min(kHeight - kMargin, y + 330)}, report_);
+    if (report_.location)
+      add_figure(kLeastMap, [&](const Box& area) { draw_location(drawing_, area, *report_.location); });
+    if (has_trade_off(report_))
+      add_figure(kLeastChart, [&](const Box& area) { draw_trade_off_chart(drawing_, area, report_); });
   }
 
  private:
-  static constexpr double kHalf = (kWidth - 3 * kMargin) / 2, kLeastChart = 200;
+  static constexpr double kHalf = (kWidth - 3 * kMargin) / 2, kLeastChart = 200, kLeastMap = 300, kMostFigure = 400;
+
+  /// Draws a figure in a column with at least this room, on a page of its own where neither has it.
+  template <class Draw>
+  void add_figure(double least, const Draw& draw) {
+    if (columns_[shorter()].y() + least > kHeight - kMargin) begin_page();
+    const std::size_t i = shorter();
+    const double x = left_of(i), y = columns_[i].y();
+    const Box area{x, y, x + kHalf, std::min(kHeight - kMargin, y + kMostFigure)};
+    draw(area);
+    columns_[i].go_on_at(area.ymax);
+  }
 
   static double left_of(std::size_t i) { return i == 0 ? kMargin : 2 * kMargin + kHalf; }
   std::size_t shorter() const { return columns_[0].y() < columns_[1].y() ? 0 : 1; }
@@ -112,7 +123,6 @@ std::string report_drawing(const LosReport& report, Drawing::Format format) {
   }
   return numbered_pdf([&](Pages& pages) {
     draw_first_page(pages.drawing(), report);
-    pages.add_map(report.location.get());
     draw_fade_page(pages, report);
     TablePages(pages, report).draw();
     draw_profile_pages(pages, report);

@@ -22,14 +22,19 @@ constexpr const char* kStyle =
     "body{font:15px/1.45 system-ui,sans-serif;color:#222;max-width:64rem;margin:2rem auto;padding:0 1rem}"
     "h1{font-size:1.6rem;margin:0 0 .3rem}h2{font-size:1.1rem;margin:1.6rem 0 .3rem}"
     "table{border-collapse:collapse}td,th{padding:.18rem .9rem .18rem 0;text-align:left;vertical-align:top;"
-    "border-bottom:1px solid #ddd}img{width:100%;height:auto}.note{color:#666;font-size:.9em}"
+    "border-bottom:1px solid #ddd}img{width:100%;height:auto}img.map{max-width:44rem}.note{color:#666;font-size:.9em}"
     ".verdict{font-size:1.1rem;font-weight:600}@media print{body{margin:0;max-width:none}h2{break-after:avoid}}";
 
 constexpr double kDrawingWidth = 842, kDrawingHeight = 420;
 constexpr int kMapPixels = 800;
 
-std::string image(const char* what, const std::string& bytes, const char* type = "image/svg+xml") {
-  return fmt::format("<img alt=\"{}\" src=\"data:{};base64,{}\">\n", what, type, base64(bytes));
+std::string image(const char* what, const std::string& bytes) {
+  return fmt::format("<img alt=\"{}\" src=\"data:image/svg+xml;base64,{}\">\n", what, base64(bytes));
+}
+
+std::string map_image(const MapSheet& map) {
+  return fmt::format("<img class=\"map\" alt=\"Map of where the line runs\" src=\"data:image/png;base64,{}\">\n",
+                     base64(draw_map_png(map, kMapPixels)));
 }
 
 std::string trade_off_svg(const LosReport& report) {
@@ -67,10 +72,9 @@ std::string report_html(const LosReport& report) {
     html += image("Sight line over the Earth of the worst fade",
                   sight_svg(over_earth_of(report, *fade), kDrawingWidth, kDrawingHeight));
   }
-  if (report.location)
-    html += image("Map of where the line runs", draw_map_png(*report.location, kMapPixels), "image/png");
   html += html_table(ends_table(report));
   for (const Table& table : result_tables(report)) html += html_table(table);
+  if (report.location) html += map_image(*report.location);
   if (has_trade_off(report)) html += image("Heights at A against B", trade_off_svg(report));
   if (const std::optional<Table> profile = profile_table(report)) html += html_table(*profile);
   return html + html_table(facts_table(report)) + "</body>\n</html>\n";

@@ -40,7 +40,8 @@ class TablePage {
     const std::size_t shown = all ? table_.rows.size() : std::max<std::size_t>(rows, 2) - 1;
     for (std::size_t r = 0; r < shown; ++r) draw_row(r);
     if (!all)
-      add_line(fmt::format("and {} in {}", counted(table_.rows.size() - shown, "more row"), table_.elsewhere),
+      add_line(fmt::format("and {}{}{}", counted(table_.rows.size() - shown, "more row"),
+                           table_.rest.empty() ? "" : ", ", table_.rest),
                {.size = 6.5 * type_, .colour = kFaint});
   }
 

@@ -31,6 +31,16 @@ Point2 on_paper(const WirelineStrip& strip, double from_middle_deg, double eleva
   return {principal * std::tan(azimuth), principal * rise / std::cos(azimuth)};
 }
 
+/// The elevation of the skyline in a direction, degrees from the view's left edge; 0 where there is no ground.
+double skyline_deg(const Wireline& view, double across_deg) {
+  const auto line = static_cast<std::size_t>(std::lround(across_deg / view.query.step_deg));
+  double highest = -90;
+  for (const WirelineBand& band : view.bands)
+    if (line < band.angle_deg.size() && !std::isnan(band.angle_deg[line]))
+      highest = std::max<double>(highest, band.angle_deg[line]);
+  return highest > -90 ? highest : 0;
+}
+
 double middle_height(const Box& frame) {
   return (frame.ymin + frame.ymax) / 2;
 }
@@ -49,13 +59,23 @@ void draw_bearings(Drawing& drawing, const WirelineStrip& strip) {
 }  // namespace
 
 double horizon_shift(const Wireline& view, const WirelineStrip& strip) {
-  constexpr double kRoom = 22;  // points above a tip, for its number
-  double highest = 0;
+  constexpr double kRoom = 22;                    // points above a tip, for its number
+  constexpr double kMostTips = 0.4, kMost = 0.9;  // of the frame's height
+  const double middle = middle_of(view, strip), height = strip.frame.height();
+  double tips = 0, lowest_tip = height, skyline = on_paper(strip, 0, skyline_deg(view, middle)).y;
   for (const PlacedTurbine& t : placed_turbines(view.query)) {
-    const double across = t.across - middle_of(view, strip);
-    if (std::abs(across) <= strip.width_deg / 2) highest = std::max(highest, on_paper(strip, across, t.top).y);
+    const double across = t.across - middle;
+    if (std::abs(across) > strip.width_deg / 2) continue;
+    const double tip = on_paper(strip, across, t.top).y;
+    tips = std::max(tips, tip), lowest_tip = std::min(lowest_tip, tip);
+    skyline = std::max(skyline, on_paper(strip, across, skyline_deg(view, t.across)).y);
   }
-  return std::clamp(highest + kRoom - strip.frame.height() / 2, 0.0, strip.frame.height() * 0.4);
+  const auto shift = [&](double highest, double most) {
+    return std::clamp(highest + kRoom - height / 2, 0.0, most * height);
+  };
+  // The skyline moves no tip out of the frame.
+  return std::max(shift(tips, kMostTips),
+                  std::min(shift(skyline, kMost), std::max(0.0, height / 2 + lowest_tip - kRoom)));
 }
 
 void draw_strip(Drawing& drawing, const Wireline& view, const WirelineStrip& strip) {

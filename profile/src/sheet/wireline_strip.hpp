@@ -18,7 +18,8 @@ struct WirelineStrip {
   double weight = 1;  ///< factor for the width of all lines: wide sheets are seen from farther away
 };
 
-/// How far, in points, the horizon must lie below the middle of the frame for the highest tip in it to be seen.
+/// How far, in points, the horizon must lie below the middle of the frame for the highest tip in it to be seen, and the
+/// skyline above each turbine and in the middle, as far as no tip leaves the frame for that.
 double horizon_shift(const Wireline& view, const WirelineStrip& strip);
 
 /// Draws the strip. Throws InputError where the view does not hold the field.

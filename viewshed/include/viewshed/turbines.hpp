@@ -42,7 +42,7 @@ struct Arc {
 
 /// Where a turbine stands in planning. Where some are proposed and others are not, the study area is that about the
 /// proposed ones, and what they add to the others is told (has_proposal()).
-enum class TurbineStatus { kProposed, kConsented, kExisting };
+enum class TurbineStatus { kProposed, kInPlanning, kConsented, kExisting };
 
 /// A wind turbine. Its heights are metres above the ground at its foot.
 struct Turbine {

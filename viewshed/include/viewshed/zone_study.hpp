@@ -84,9 +84,10 @@ struct TurbineFile {
   std::string tip_height_field = "tip_height";
   std::string farm_field = "farm";
   std::string status_field = "status";  ///< proposed, consented or existing, in usual words; empty: not asked for
-  TurbineSize size = {};                ///< taken for turbines whose row leaves it open
-  std::string farm = {};                ///< taken for turbines whose row gives none
-  RadiusRule radius = {};               ///< gives Turbine::radius
+  std::string proposal = {};  ///< the farm that is the proposal: others that are proposed are in planning beside it
+  TurbineSize size = {};      ///< taken for turbines whose row leaves it open
+  std::string farm = {};      ///< taken for turbines whose row gives none
+  RadiusRule radius = {};     ///< gives Turbine::radius
 };
 
 /// Turbines, and what there is to say about the file that they come from.

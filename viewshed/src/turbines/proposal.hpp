@@ -1,4 +1,4 @@
-// A proposed wind farm among consented and existing ones: what of the zone is its own, and what it adds.
+// A proposed wind farm among others: what of the zone is its own, and what it adds.
 #pragma once
 
 #include <array>
@@ -27,7 +27,7 @@ struct AdditionClass {
   Rgba colour;
 };
 inline constexpr std::array<AdditionClass, 4> kAdditions{{{"none", kTransparent},
-                                                          {"consented or existing turbines alone", {86, 180, 233}},
+                                                          {"other turbines alone", {86, 180, 233}},
                                                           {"the proposal and others", {204, 121, 167}},
                                                           {"the proposal alone: additional area", {213, 94, 0}}}};
 /// Returns an Addition, or kNoAddition, for each cell.

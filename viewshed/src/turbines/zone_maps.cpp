@@ -97,7 +97,7 @@ ZoneMap proposal_map(const Zone& zone, const Visibility& visibility) {
 
 ZoneMap addition_map(const Zone& zone, const Visibility& visibility) {
   ZoneMap map;
-  map.title = "Additional visibility: what the proposal adds to consented and existing turbines";
+  map.title = "Additional visibility: what the proposal adds to other turbines";
   map.heading = "Blade tips visible of";
   for (const AdditionClass& c : kAdditions) map.classes.push_back({c.text, c.colour});
   map.classes.front().label = kNone;

@@ -107,6 +107,7 @@ class Ztv(Task):
             of="TURBINES",
             advanced=True,
         ),
+        Text("PROPOSAL", "Farm that is the proposal, where others are in planning", "--proposal", advanced=True),
         Text("FARM", "Farm of those that give none", "--farm", advanced=True),
         Text("BANDS", "Numbers of turbines in bands of maps, as 1,5,10", "--bands", advanced=True),
         File("RADIUS_PRESET", "Radii by tip height", "--radius-preset", filter="JSON (*.json)", advanced=True),

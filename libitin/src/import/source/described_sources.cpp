@@ -45,7 +45,7 @@ std::vector<std::string> described(const std::vector<SourceInfo>& sources, const
   for (auto& [names, text] : sorts) {
     const std::size_t more = names.size() - std::min(names.size(), kMostNames);
     names.resize(names.size() - more);
-    const std::string rest = more > 0 ? fmt::format(" and {} more, which the JSON document lists", more) : "";
+    const std::string rest = more > 0 ? fmt::format(" and {} more", more) : "";
     lines.push_back(fmt::format("{}{}{}{}", fmt::join(names, ", "), rest, text.empty() ? "" : ": ", text));
   }
   return lines;

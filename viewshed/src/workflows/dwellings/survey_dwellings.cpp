@@ -137,9 +137,13 @@ class DwellingsSurveyor {
   void choose() {
     const Box all = survey_.metadata.grid.box(survey_.metadata.bounds);
     const auto feet = building_feet(store_, survey_.request.themes, all);
-    if (survey_.request.dwellings.places.empty())
-      warn_of_left_out(survey_.metadata, survey_.request.themes, survey_.warnings);
+    const std::size_t given = survey_.request.dwellings.places.size();
+    if (given == 0) warn_of_left_out(survey_.metadata, survey_.request.themes, survey_.warnings);
     survey_.dwellings = choose_dwellings(survey_.request, survey_.metadata, feet, progress_);
+    if (given > survey_.dwellings.size())
+      survey_.warnings.push_back(fmt::format(
+          "{} of {} not studied: farther than {:g} m from all turbines, and beyond the reach of their shadows",
+          given - survey_.dwellings.size(), counted(given, "dwelling"), survey_.request.radius));
   }
 
   // Where their eyes are.

@@ -176,16 +176,30 @@ std::string missing_in_words(const ZoneStudy& study) {
       missing.text(), missing.study_m2() / 1e6, crossings_in_words(study.zone));
 }
 
+/// Returns the turbines beside the proposal by their status: "6 in planning, 4 consented and 14 existing turbines".
+std::string others_in_words(const ZoneRequest& request) {
+  using enum TurbineStatus;
+  std::vector<std::string> parts;
+  std::size_t rest = request.turbines.size() - proposed_turbines(request);
+  const auto add = [&](std::size_t count, const char* what) {
+    if (count > 0) parts.push_back(fmt::format("{} {}", count, what));
+    rest -= count;
+  };
+  add(turbines_with(kInPlanning, request), "in planning");
+  add(turbines_with(kConsented, request), "consented");
+  add(turbines_with(kExisting, request), "existing");
+  add(rest, "other");
+  const std::string last = parts.back();
+  parts.pop_back();
+  return fmt::format("{}{}{} turbines", fmt::join(parts, ", "), parts.empty() ? "" : " and ", last);
+}
+
 std::string proposal_in_words(const ZoneRequest& request) {
   return fmt::format(
-      "The proposal is {}; {} consented and {} existing turbines are assessed with it. The study area is that of the "
-      "proposal alone. Within it, maps and areas are cumulative, and count all turbines, unless they are called those "
-      "of "
-      "the proposal, which count the proposed ones. The additional area is where tips of the proposal are seen and "
-      "those "
-      "of no other turbine.",
-      counted(proposed_turbines(request), "turbine"), turbines_with(TurbineStatus::kConsented, request),
-      turbines_with(TurbineStatus::kExisting, request));
+      "The proposal is {}; {} are assessed with it. The study area is that of the proposal alone. Within it, maps and "
+      "areas are cumulative, and count all turbines, unless they are called those of the proposal, which count the "
+      "proposed ones. The additional area is where tips of the proposal are seen and those of no other turbine.",
+      counted(proposed_turbines(request), "turbine"), others_in_words(request));
 }
 
 std::string combinations_in_words(const ZoneStudy& study) {

@@ -27,7 +27,8 @@ auto of_turbine(Of of) {
 }
 
 /// The classes of TurbineStatus, in its order.
-inline constexpr std::array<FeatureClass, 3> kTurbineStatuses{{{"proposed", "Proposed", {213, 94, 0}},
+inline constexpr std::array<FeatureClass, 4> kTurbineStatuses{{{"proposed", "Proposed", {213, 94, 0}},
+                                                               {"in planning", "In planning", {230, 159, 0}},
                                                                {"consented", "Consented", {204, 121, 167}},
                                                                {"existing", "Existing", {60, 60, 60}}}};
 

@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
+#include <set>
 #include <utility>
 
 #include <fmt/format.h>
@@ -111,13 +113,14 @@ std::optional<TurbineStatus> status_of(const std::string& word) {
   return known == kWords.end() ? std::nullopt : std::optional(known->second);
 }
 
-/// Tells whether the field of status counts: where a call names it, or a row is proposed. Otherwise a field of that
-/// name may mean something else.
+/// Tells whether the field of status counts: where a call names it, or a row is proposed; with the farm of the proposal
+/// given, where a row has any status. Otherwise a field of that name may mean something else.
 bool tells_status(const TurbineFile& file, const std::vector<SiteRow>& rows) {
   if (file.status_field.empty()) return false;
   return file.status_field != TurbineFile().status_field ||
-         std::any_of(rows.begin(), rows.end(), [](const SiteRow& row) {
-           return status_of(row.values[kStatus].value_or("")) == TurbineStatus::kProposed;
+         std::any_of(rows.begin(), rows.end(), [&](const SiteRow& row) {
+           const auto status = status_of(row.values[kStatus].value_or(""));
+           return status && (!file.proposal.empty() || *status == TurbineStatus::kProposed);
          });
 }
 
@@ -125,6 +128,28 @@ TurbineStatus status_in_row(const SiteRow& row) {
   const std::string word = row.values[kStatus].value_or("");
   if (const auto status = status_of(word)) return *status;
   throw InputError(fmt::format("its status '{}' is not proposed, consented or existing", word));
+}
+
+/// Returns the turbine's status. The farm of the proposal needs none in its rows, and what else is proposed is in
+/// planning beside it.
+std::optional<TurbineStatus> status_of_turbine(const Turbine& turbine, const SiteRow& row, const TurbineFile& file,
+                                               bool with_status) {
+  using enum TurbineStatus;
+  if (!file.proposal.empty() && turbine.farm == file.proposal) return kProposed;
+  if (!with_status) return std::nullopt;
+  const TurbineStatus status = status_in_row(row);
+  return status == kProposed && !file.proposal.empty() ? kInPlanning : status;
+}
+
+/// Throws InputError where no turbine is of the farm that is to be the proposal.
+void require_proposal(const TurbineFile& file, const std::vector<Turbine>& turbines) {
+  if (file.proposal.empty()) return;
+  std::set<std::string> farms;
+  for (const Turbine& turbine : turbines) farms.insert(turbine.farm.empty() ? "(no farm)" : turbine.farm);
+  if (!farms.contains(file.proposal))
+    throw InputError(fmt::format("`proposal`: {} has no turbine of the farm '{}'; its farms are {}", file.path,
+                                 file.proposal, fmt::join(farms, ", ")),
+                     "proposal");
 }
 
 Turbine turbine_of(const SiteRow& row, std::size_t number, const TurbineFile& file) {
@@ -197,7 +222,7 @@ TurbineTable read_turbines(const TurbineFile& file, const std::string& to_crs) {
     table.features.push_back(row.feature), table.places.push_back(row.place);
     try {
       Turbine turbine = turbine_of(row, k, file);
-      if (with_status) turbine.status = status_in_row(row);
+      turbine.status = status_of_turbine(turbine, row, file, with_status);
       table.turbines.push_back(std::move(turbine));
     } catch (const InputError& error) {
       table.bad.push_back({k, row.feature, row.place, error.what()});
@@ -208,6 +233,7 @@ TurbineTable read_turbines(const TurbineFile& file, const std::string& to_crs) {
   if (table.turbines.empty())
     throw InputError(fmt::format("{}: none of its rows can be used ({} in all); the first: {}", file.path, table.rows,
                                  table.bad.front().message));
+  require_proposal(file, table.turbines);
   return table;
 }
 

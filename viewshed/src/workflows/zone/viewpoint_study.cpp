@@ -73,6 +73,9 @@ ViewpointTable read_viewpoints(const PointFile& file, const std::string& to_crs,
     }
   }
   if (table.rows == 0) throw InputError(none_in(query, "viewpoint"));
+  if (table.viewpoints.empty())
+    throw InputError(fmt::format("{}: none of its rows can be used ({} in all); the first: {}", file.path, table.rows,
+                                 table.bad.front().message));
   return table;
 }
 

@@ -169,7 +169,7 @@ constexpr double kFirstColumn = 0.26;  ///< the part of a table's width that its
 
 /// Returns a row for each farm, and one for all turbines where there are several farms.
 profile::SheetTable farm_table(const Zone& zone, const std::vector<TurbineSight>& sights) {
-  profile::SheetTable table{.first_column = kFirstColumn, .elsewhere = "viewpoints.csv, turbine by turbine"};
+  profile::SheetTable table{.first_column = kFirstColumn};
   table.rows = {
       {"Wind farm", "Turbines", "Hubs visible", "Tips visible", "Nearest, km", "Horizontal extent", "Vertical angle"}};
   const auto add = [&](const std::string& name, const std::vector<std::size_t>& turbines) {
@@ -199,7 +199,7 @@ const char* verdict_in_words(const std::optional<TurbineSight::Verdict>& verdict
 
 /// Returns a row for each turbine, the nearest first.
 profile::SheetTable table_of_sights(const Zone& zone, const std::vector<TurbineSight>& sights) {
-  profile::SheetTable table{.first_column = kFirstColumn, .elsewhere = "viewpoints.csv"};
+  profile::SheetTable table{.first_column = kFirstColumn, .rest = "of turbines farther away"};
   table.rows = {{"Turbine", "Distance, km", "Bearing", "Hub", "Blade tip", "In sight", "Vertical angle"}};
   std::vector<std::size_t> nearest = all_turbines(zone);
   std::stable_sort(nearest.begin(), nearest.end(),

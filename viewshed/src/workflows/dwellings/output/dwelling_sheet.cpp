@@ -132,7 +132,6 @@ profile::SheetTable table_of_facades(const DwellingsSurvey& survey, const Dwelli
   profile::SheetTable table{
       .title = "What each facade sees of the turbines before it (?: undecided across ground without data)",
       .first_column = 0.06};
-  table.elsewhere = "facades.csv";
   const std::vector<SightSurface> surfaces = views_in_table(dwelling.facades.front());
   const std::vector<std::string> columns = columns_of_view(surfaces.size());
   table.headings = {{"", 4}};
@@ -157,7 +156,6 @@ profile::SheetTable table_of_facades(const DwellingsSurvey& survey, const Dwelli
 
 profile::SheetTable table_of_flicker(const DwellingsSurvey& survey, const Dwelling& dwelling) {
   profile::SheetTable table{.title = "Shadow flicker by turbine, worst case", .first_column = 0.2};
-  table.elsewhere = "flicker.csv";
   table.rows = {{"Turbine", "Distance", "Bearing", "Hours", "Days", "Worst day", "Minutes", "Likely hours"}};
   const bool likely = survey.request.flicker.months.has_value();
   if (!likely) table.rows[0].pop_back();

@@ -21,7 +21,7 @@ constexpr std::array<FeatureClass, 8> kPointServices{{{"served", "Point served",
                                                       {"too few", "Point served by too few sites", {86, 180, 233}},
                                                       {"undecided", "Point undecided", {140, 140, 140}},
                                                       {"zone cut", "Point in sight, Fresnel zone cut", {230, 159, 0}},
-                                                      {"too weak", "Point whose level is too low", {213, 94, 0}},
+                                                      {"too weak", "Point whose level is too low", {204, 121, 167}},
                                                       {"hidden", "Point hidden from all sites", {150, 30, 30}},
                                                       {"out of reach", "Point beyond the radius", {205, 205, 205}},
                                                       {"no ground", "Point without ground data", {40, 40, 40}}}};
