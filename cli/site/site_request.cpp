@@ -1,5 +1,6 @@
 #include "site/site_request.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <optional>
