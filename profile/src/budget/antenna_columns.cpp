@@ -20,9 +20,9 @@ AimedAntenna AntennaColumns::of(const Site& site) {
   const std::string where = fmt::format("{}: {}", path_, site.place);
   if (antenna.tilt_deg && std::abs(*antenna.tilt_deg) > 90)
     throw InputError(fmt::format("{}: its tilt of {:g} is beyond 90 degrees", where, *antenna.tilt_deg));
-  if (antenna.azimuth_deg && !(*antenna.azimuth_deg >= 0 && *antenna.azimuth_deg <= 360))
+  if (antenna.azimuth_deg && !(*antenna.azimuth_deg >= -180 && *antenna.azimuth_deg <= 360))
     throw InputError(
-        fmt::format("{}: its azimuth of {:g} is not one from 0 to 360 degrees", where, *antenna.azimuth_deg));
+        fmt::format("{}: its azimuth of {:g} is not one from -180 to 360 degrees", where, *antenna.azimuth_deg));
   const std::string& file = site.texts[text_];
   if (file.empty()) return antenna;
   std::shared_ptr<const AntennaPattern>& pattern = patterns_[file];

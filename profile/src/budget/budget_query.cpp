@@ -64,8 +64,8 @@ void require_patterns(const BudgetQuery& query) {
     }
     if (const auto tilt = antenna->tilt_deg; tilt && std::abs(*tilt) > 90)
       refuse("antenna_tilt", fmt::format(" {:g}: give -90 to 90 degrees", *tilt));
-    if (const auto azimuth = antenna->azimuth_deg; azimuth && !(*azimuth >= 0 && *azimuth <= 360))
-      refuse("antenna_azimuth", fmt::format(" {:g}: give 0 to 360 degrees", *azimuth));
+    if (const auto azimuth = antenna->azimuth_deg; azimuth && !(*azimuth >= -180 && *azimuth <= 360))
+      refuse("antenna_azimuth", fmt::format(" {:g}: give -180 to 360 degrees", *azimuth));
   }
 }
 

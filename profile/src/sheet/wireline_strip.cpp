@@ -59,8 +59,9 @@ void draw_bearings(Drawing& drawing, const WirelineStrip& strip) {
 }  // namespace
 
 double horizon_shift(const Wireline& view, const WirelineStrip& strip) {
-  constexpr double kRoom = 22;                    // points above a tip, for its number
-  constexpr double kMostTips = 0.4, kMost = 0.9;  // of the frame's height
+  constexpr double kRoom = 22;  // points above a tip, for its number
+  // These are parts of the frame's height.
+  constexpr double kMostTips = 0.4, kMost = 0.9;
   const double middle = middle_of(view, strip), height = strip.frame.height();
   double tips = 0, lowest_tip = height, skyline = on_paper(strip, 0, skyline_deg(view, middle)).y;
   for (const PlacedTurbine& t : placed_turbines(view.query)) {
