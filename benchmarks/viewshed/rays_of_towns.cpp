@@ -4,6 +4,7 @@
 #include <bit>
 #include <cstdlib>
 #include <fstream>
+#include <malloc.h>
 #include <memory>
 #include <string>
 #include <unistd.h>
@@ -178,8 +179,9 @@ void BM_LinesByEmbreeAlone(benchmark::State& state) {
 }
 BENCHMARK(BM_LinesByEmbreeAlone)->Unit(benchmark::kMillisecond);
 
-/// The memory of this process that is in use, bytes.
+/// Returns the memory of this process that is in use, bytes.
 double resident() {
+  malloc_trim(0);
   std::ifstream statm("/proc/self/statm");
   double pages = 0;
   statm >> pages >> pages;

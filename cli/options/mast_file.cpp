@@ -20,7 +20,8 @@ CLI::Option* declare_mast_file(CLI::App& app, const MastFile& file, SiteQuery& q
   app.add_option("--layer", query.layer, "The layer of that file")->type_name("NAME");
   app.add_option("--where", query.where, fmt::format("Only {} that this SQL condition holds for", rows))
       ->type_name("SQL");
-  app.add_option("--name-field", query.name_field, "The field that holds names (default: name, or one like it)")
+  app.add_option("--name-field", query.name_field,
+                 fmt::format("The field that holds names (default: {})", file.unnamed))
       ->type_name("FIELD");
   app.add_option("--height-field", query.height_field,
                  "The field that holds each mast's height (default: height, unless --mast-height is given)")

@@ -9,8 +9,9 @@ namespace itin::cli {
 
 /// What a verb calls the file and its rows.
 struct MastFile {
-  const char* option;  ///< "--masts"
-  const char* what;    ///< "Masts"
+  const char* option;   ///< "--masts"
+  const char* what;     ///< "Masts"
+  const char* unnamed;  ///< which names rows have where no field is given
 };
 
 /// Declares the option of the file, --layer, --where, --name-field and --height-field. Returns the first.

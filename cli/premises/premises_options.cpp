@@ -27,7 +27,7 @@ void PremisesOptions::declare(CLI::App& app) {
 
 void PremisesOptions::declare_masts(CLI::App& app) {
   begin_group(app, "Masts");
-  declare_mast_file(app, {"--masts", "Masts"}, masts_)->required();
+  declare_mast_file(app, {"--masts", "Masts", "name, or one like it"}, masts_)->required();
   app.add_option("--mast-height", mast_height_text_, "Height of masts without one of their own (default: 20)")
       ->type_name("METRES");
   app.add_option("--observer-on", observer_on_,

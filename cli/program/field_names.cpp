@@ -76,6 +76,7 @@ constexpr std::array kNames{
     Names{"overwrite", "--overwrite"},
     Names{"poles", "--pole"},
     Names{"power_dbm", "--power-dbm"},
+    Names{"proposal", "--proposal"},
     Names{"radius", "--radius"},
     Names{"radius_rule", "--radius-preset"},
     Names{"rays", "--rays"},

@@ -43,7 +43,7 @@ void SiteOptions::declare(CLI::App& app) {
 
 void SiteOptions::declare_candidates(CLI::App& app) {
   begin_group(app, "Candidates");
-  declare_mast_file(app, {"--candidates", "Candidates"}, candidates);
+  declare_mast_file(app, {"--candidates", "Candidates", "the row's number from 0"}, candidates);
   app.add_option("--cost-field", cost_field, "The field that holds each place's cost (default: no costs)")
       ->type_name("FIELD");
   reads(app.add_option("--search-area", search_area,

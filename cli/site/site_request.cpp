@@ -147,7 +147,6 @@ class RequestFiles {
     query.crs = options_.in_crs.crs;
     viewshed::SitePlaces begun = with_number(query, options_.cost_field, "cost", "--cost-field");
     auto antennas = antennas_of(query);
-    take_names(query, LayerFields(query));
     request_.candidates = places_of(query, std::move(begun), [&](const Site& site, viewshed::SitePlace& candidate) {
       candidate.name = name_of(site, query);
       candidate.cost = options_.cost_field.empty() ? 0 : number_of(site, 0);
@@ -163,9 +162,8 @@ class RequestFiles {
   void read_existing() {
     SiteQuery query = query_of(options_.existing, options_.existing_height_field);
     auto antennas = antennas_of(query);
-    take_names(query, LayerFields(query));
     request_.existing = places_of(query, {}, [&](const Site& site, viewshed::SitePlace& place) {
-      place.name = name_of(site, query);
+      place.name = site.name;
       take_antenna(antennas, site, place);
     });
     join_sectors(request_.existing);

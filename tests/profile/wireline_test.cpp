@@ -117,7 +117,7 @@ TEST(Wirelines, BeginAtTheFeetOfTheEye) {
   for (const WirelineBand& band : view.bands)
     for (const float angle : band.angle_deg)
       EXPECT_NEAR(angle, std::atan2(-2, band.to_m) * 180 / std::numbers::pi, 0.01) << band.to_m;
-  EXPECT_LT(view.bands.front().angle_deg.front(), -35);
+  EXPECT_LT(view.bands.front().angle_deg.front(), -30);
 }
 
 }  // namespace

@@ -80,7 +80,7 @@ class TablePages {
   }
 
   static double left_of(std::size_t i) { return i == 0 ? kMargin : 2 * kMargin + kHalf; }
-  std::size_t shorter() const { return columns_[0].y() < columns_[1].y() ? 0 : 1; }
+  std::size_t shorter() const { return columns_[1].y() < columns_[0].y() ? 1 : 0; }
 
   void begin_page() {
     pages_.begin_page();

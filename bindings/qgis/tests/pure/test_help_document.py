@@ -28,6 +28,7 @@ LEFT_TO_FURTHER_OPTIONS = {
     ("*", "--allow-network"),
     ("import", "--remove"),  # names no layer
     ("viewshed", "--precise"),  # the default
+    ("viewshed", "--observer-name"),  # a layer has names
     ("los", "--profile-csv"),  # work without a store
     ("los", "--heights"),
     ("profile", "--via"),  # a layer has bends
