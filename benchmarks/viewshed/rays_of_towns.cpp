@@ -59,10 +59,12 @@ Town read_town(const std::string& path) {
     for (const WallPlace& place : wall_places({foot, *town.surface, *ground, rules}, progress))
       town.walls.push_back(
           in_units(tin, {place.position.x, place.position.y, place.ground_m + (place.least_m + place.most_m) / 2}));
-  for (int i = 0; i < kMastsASide * kMastsASide; ++i) {
-    const Point2 at{box.xmin + (0.5 + i % kMastsASide) / kMastsASide * (box.xmax - box.xmin),
-                    box.ymin + (0.5 + i / kMastsASide) / kMastsASide * (box.ymax - box.ymin)};
-    if (const auto z = ground->height(at)) town.masts.push_back(in_units(tin, {at.x, at.y, *z + kMastHeight}));
+  for (int column = 0; column < kMastsASide; ++column) {
+    for (int row = 0; row < kMastsASide; ++row) {
+      const Point2 at{box.xmin + (0.5 + column) / kMastsASide * (box.xmax - box.xmin),
+                      box.ymin + (0.5 + row) / kMastsASide * (box.ymax - box.ymin)};
+      if (const auto z = ground->height(at)) town.masts.push_back(in_units(tin, {at.x, at.y, *z + kMastHeight}));
+    }
   }
   return town;
 }

@@ -16,7 +16,7 @@ std::vector<GridEdge> outline_of(SortedPoints points, const std::vector<SourceIn
   const WorkingIndex index(points, 1, kLeafCapacity);
   const Proposal ground = find_ground(index, index.work_cells(), gap_bases_of(sources, grid), nullptr, progress);
   std::vector<GridEdge> edges;
-  for (const Segment& s : join_collinear(ground.outline)) edges.push_back({s.a(), s.b()});
+  for (const Segment& s : join_collinear(ground.outline)) edges.emplace_back(s.a(), s.b());
   return edges;
 }
 
