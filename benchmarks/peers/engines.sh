@@ -5,17 +5,13 @@
 #   benchmarks/peers/engines.sh
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/measure.sh"
+source "$(dirname "${BASH_SOURCE[0]}")/alexandria_store.sh"
 require_tools
 
 readonly folder=$work/engines
 mkdir -p "$folder"
 cd "$folder"
 if [ ! -f hills.itin ]; then "$itin" import hills.itin "$root/scripts/demo-data/cardiff.tif" --quiet >/dev/null; fi
-if [ ! -f town.itin ]; then
-  "$itin" import town.itin "$root/scripts/demo-data/alexandria-dtm.tif" --quiet >/dev/null
-  "$itin" import town.itin "$root/scripts/demo-data/alexandria-buildings.geojson" --kind buildings --height-field HEIGHT \
-    --quiet >/dev/null 2>&1
-fi
 if [ ! -f lidar.itin ] && [ -d "$data/derived-las" ]; then
   "$itin" import lidar.itin "$data"/derived-las/ign_*.las --crs EPSG:2154 --quiet >/dev/null
 fi

@@ -7,16 +7,10 @@
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/measure.sh"
 source "$(dirname "${BASH_SOURCE[0]}")/town_stores.sh"
+source "$(dirname "${BASH_SOURCE[0]}")/alexandria_store.sh"
 require_tools jq
 
 readonly benchmarks=$(dirname "$itin")/itin_benchmarks
-mkdir -p "$work/engines"
-alexandria=$work/engines/town.itin
-if [ ! -f "$alexandria" ]; then
-  "$itin" import "$alexandria" "$root/scripts/demo-data/alexandria-dtm.tif" --quiet >/dev/null
-  "$itin" import "$alexandria" "$root/scripts/demo-data/alexandria-buildings.geojson" --kind buildings \
-    --height-field HEIGHT --quiet >/dev/null 2>&1
-fi
 
 compare() {  # compare NAME STORE
   ITIN_TOWN=$2 "$benchmarks" --benchmark_filter='Lines|SceneOfTown' --benchmark_format=json --benchmark_min_time=2 2>/dev/null |

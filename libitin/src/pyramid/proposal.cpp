@@ -91,22 +91,22 @@ bool is_second(const CurveRange& tile) {
 template <class Survey>
 void propose_wave(WorkingIndex& index, const std::vector<CurveRange>& tiles, const std::vector<std::size_t>& wave,
                   const Survey& survey, std::vector<TileProposal>& proposals) {
-  // The tiles of the wave, by their places in it, that read a tile's points.
-  std::vector<std::vector<std::uint32_t>> read_by(wave.size());
+  // For each tile the tiles of the wave, by their places in it, whose points it reads.
+  std::vector<std::vector<std::uint32_t>> reads(wave.size());
   parallel_for(wave.size(), [&](std::size_t i) {
     const GridBox reach = reach_of(tiles[wave[i]]);
     for (std::uint32_t j = 0; j < wave.size(); ++j)
-      if (reach.meets(square_of(tiles[wave[j]].cell))) read_by[i].push_back(j);
+      if (reach.meets(square_of(tiles[wave[j]].cell))) reads[i].push_back(j);
   });
   std::vector<std::uint32_t> readers(wave.size(), 0);
-  for (const auto& read : read_by)
+  for (const auto& read : reads)
     for (const std::uint32_t j : read) readers[j] += 1;
   for (std::size_t first = 0; first < wave.size(); first += kProposedAtOnce) {
     const std::size_t count = std::min(kProposedAtOnce, wave.size() - first);
     parallel_for(count, [&](std::size_t i) { proposals[wave[first + i]] = survey(tiles[wave[first + i]]); });
     std::vector<std::size_t> known;
     for (std::size_t i = first; i < first + count; ++i)
-      for (const std::uint32_t j : read_by[i])
+      for (const std::uint32_t j : reads[i])
         if (--readers[j] == 0) known.push_back(wave[j]);
     parallel_for(known.size(), [&](std::size_t i) {
       write_proposed(index, tiles[known[i]], std::exchange(proposals[known[i]].levels, {}));
@@ -114,7 +114,7 @@ void propose_wave(WorkingIndex& index, const std::vector<CurveRange>& tiles, con
   }
 }
 
-/// Raises points that a tile of the second wave asks for across its border, those of tiles of the first wave alone.
+/// Raises points that tiles of the second wave ask for across their borders, those of tiles of the first wave alone.
 void raise_beyond(WorkingIndex& index, const std::vector<CurveRange>& tiles, std::vector<LevelRaise> raises) {
   std::erase_if(raises, [&](const LevelRaise& raise) {
     const auto after = std::upper_bound(tiles.begin(), tiles.end(), raise.code,
@@ -141,7 +141,10 @@ std::vector<TileProposal> propose_all(WorkingIndex& index, const std::vector<Cur
   };
   propose_wave(index, tiles, first, proposal_of, proposals);
   propose_wave(index, tiles, second, proposal_of, proposals);
-  for (const std::size_t tile : second) raise_beyond(index, tiles, std::move(proposals[tile].beyond));
+  std::vector<LevelRaise> beyond;
+  for (const std::size_t tile : second)
+    beyond.insert(beyond.end(), proposals[tile].beyond.begin(), proposals[tile].beyond.end());
+  raise_beyond(index, tiles, std::move(beyond));
   return proposals;
 }
 

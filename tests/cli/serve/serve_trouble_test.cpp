@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <regex>
 #include <sys/resource.h>
 
 #include <fmt/format.h>
@@ -91,7 +92,8 @@ TEST_F(ServeTrouble, AFullDiskIsToldOfInOneLine) {
   while (table.size() < 10000) table += "301000,171000\n";
   const Answer upload = post("/api/v1/uploads", "text/csv", table);
   EXPECT_EQ(upload.status, 500) << upload.body;
-  EXPECT_NE(upload.json().at("error").get<std::string>().find(".csv"), std::string::npos) << upload.body;
+  EXPECT_TRUE(std::regex_search(upload.json().at("error").get<std::string>(), std::regex("upload-[0-9a-f]{32}\\.csv")))
+      << upload.body;
   EXPECT_EQ(post("/api/v1/uploads", "text/csv", "x,y\n301000,171000\n").status, 201);
 
   const Answer started = post(

@@ -14,28 +14,17 @@ import { MOST_TURBINES } from "./turbines.js";
 
 /** @typedef {import("./turbines.js").Turbine} Turbine */
 
-const OF_THE_PAGE = [
-  ...["task", "mast", "selected", "show", "target", "relief", "contours", "draw", "at"],
-  ...[
-    "turbine",
-    "part",
-    "viewpoint",
-    "area",
-    "candidates",
-    "served",
-    "count",
-    "mast-height",
-    "spacing",
-    "choice",
-    "site",
-  ],
-];
 /** What is asked of sites, by the options' names. */
 const SITING = /** @type {const} */ ([
   ["count", "count"],
   ["mast-height", "height"],
   ["spacing", "spacing"],
 ]);
+const OF_THE_PAGE = [
+  ...["task", "mast", "selected", "show", "target", "relief", "contours", "draw", "at"],
+  ...["turbine", "part", "viewpoint", "area", "candidates", "served", "choice", "site"],
+  ...SITING.map(([name]) => name),
+];
 const TASKS = ["masts", "turbines", "sites", "premises"];
 const SHOWS = ["together", "alone", "difference"];
 const RELIEFS = ["shade", "slope", "none"];

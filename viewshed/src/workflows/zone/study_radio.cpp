@@ -12,6 +12,7 @@
 #include <viewshed/zone_files.hpp>
 
 #include "workflows/zone/study_document.hpp"
+#include "workflows/zone/usable_rows.hpp"
 
 namespace itin::viewshed {
 
@@ -91,9 +92,7 @@ void require_links(const ZoneStudyRequest& request) {
   if (!table.links.empty() && !(request.frequency_ghz > 0))
     throw InputError("`frequency_ghz`: radio links need a frequency", "frequency_ghz");
   if (!table.links.empty() || table.bad.empty()) return;
-  throw InputError(fmt::format("{}: none of its rows can be used ({} in all); the first: {}", table.path,
-                               table.bad.size(), table.bad.front().message),
-                   "links");
+  throw InputError(none_usable(table.path, table.bad.size(), table.bad.front().message), "links");
 }
 
 std::vector<LinkClearance> link_clearances(const ZoneStudyRequest& request, const Zone& zone) {

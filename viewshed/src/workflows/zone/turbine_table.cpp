@@ -20,6 +20,8 @@
 #include <itin/site_table.hpp>
 #include <viewshed/zone_study.hpp>
 
+#include "workflows/zone/usable_rows.hpp"
+
 namespace itin::viewshed {
 
 namespace {
@@ -230,9 +232,7 @@ TurbineTable read_turbines(const TurbineFile& file, const std::string& to_crs) {
   }
   warn_of_duplicates(file.path, table);
   if (table.rows == 0) throw InputError(none_in(query, "turbine"));
-  if (table.turbines.empty())
-    throw InputError(fmt::format("{}: none of its rows can be used ({} in all); the first: {}", file.path, table.rows,
-                                 table.bad.front().message));
+  if (table.turbines.empty()) throw InputError(none_usable(file.path, table.rows, table.bad.front().message));
   require_proposal(file, table.turbines);
   return table;
 }

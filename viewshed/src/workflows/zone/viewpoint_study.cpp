@@ -14,6 +14,7 @@
 
 #include "workflows/zone/sight_summary.hpp"
 #include "workflows/zone/study_document.hpp"
+#include "workflows/zone/usable_rows.hpp"
 
 namespace itin::viewshed {
 
@@ -73,9 +74,7 @@ ViewpointTable read_viewpoints(const PointFile& file, const std::string& to_crs,
     }
   }
   if (table.rows == 0) throw InputError(none_in(query, "viewpoint"));
-  if (table.viewpoints.empty())
-    throw InputError(fmt::format("{}: none of its rows can be used ({} in all); the first: {}", file.path, table.rows,
-                                 table.bad.front().message));
+  if (table.viewpoints.empty()) throw InputError(none_usable(file.path, table.rows, table.bad.front().message));
   return table;
 }
 
