@@ -103,13 +103,16 @@ class RayScene : public testing::Test {
   }
 
   void expect_as_every_triangle(const Tin& tin, const Earth& earth, int rounds) {
-    const Scene scene(tin, earth);
+    std::vector<Scene> scenes;
+    for (const Instructions instructions : instructions_here()) scenes.emplace_back(tin, earth, kGrazing, instructions);
+    const Scene& scene = scenes.back();
     const test::ExactLineOfSight twin(tin, earth);
     for (int round = 0; round < rounds; ++round) {
       SCOPED_TRACE(round);
       const SightLines lines = lines_over(tin, round);
       const unsigned hidden = scene.hidden(lines);
       EXPECT_EQ(hidden & ~lines.active, 0U);
+      for (const Scene& other : scenes) EXPECT_EQ(other.hidden(lines), hidden);
       Scene::Stretches stretches;
       scene.find_hidden(lines, stretches);
       for (unsigned i = 0; i < SightLines::kSize; ++i) {

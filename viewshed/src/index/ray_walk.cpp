@@ -1,6 +1,7 @@
 #include "index/ray_walk.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <cstring>
 
 #include "index/ray_stretch.hpp"
@@ -67,21 +68,6 @@ constexpr std::size_t kInVector = 8;
 #endif
 
 }  // namespace
-
-std::span<const Instructions> instructions_here() {
-  static constexpr std::array kAll{Instructions::kBaseline, Instructions::kAvx2, Instructions::kAvx512};
-  static const std::size_t count = [] {
-#ifdef __x86_64__
-    if (!__builtin_cpu_supports("avx2")) return 1;
-    const bool wide = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
-                      __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl");
-    return wide ? 3 : 2;
-#else
-    return 1;
-#endif
-  }();
-  return std::span(kAll).first(count);
-}
 
 void walk_ray(const RayCourse& course, const PostRows& posts, Instructions instructions, RayWalk& walk) {
   switch (instructions) {

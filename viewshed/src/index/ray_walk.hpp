@@ -12,18 +12,12 @@
 
 #include <array>
 #include <cstddef>
-#include <cstdint>
-#include <span>
 
 #include "index/post_rows.hpp"
 #include "index/ray_course.hpp"
+#include "line/instructions.hpp"
 
 namespace itin::viewshed {
-
-/// The sets of instructions that rays are walked with. All give the same bits.
-enum class Instructions : std::uint8_t { kBaseline, kAvx2, kAvx512 };
-/// Returns those that this machine has, the widest last.
-std::span<const Instructions> instructions_here();
 
 /// A number for each of the observers that are looked from at once.
 template <class T>

@@ -3,20 +3,20 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstring>
 #include <limits>
 
 #include "line/set_bits.hpp"
 #include "line/sight_line.hpp"
 #include "scene/rays/embree.hpp"
+#include "scene/rays/ray_sieve.hpp"
 
 namespace itin::viewshed {
 
 namespace {
 
 constexpr double kRounding = 0x1p-24;
-/// How many roundings the boxes allow for, and the test in single precision within them.
-constexpr double kRoundingsOfBoxes = 16, kRoundingsOfFilter = 64;
+/// How many roundings the boxes allow for, and the sieve within them.
+constexpr double kRoundingsOfBoxes = 16, kRoundingsOfSieve = 64;
 
 /// What the callbacks see of a packet; Embree hands back the pointer to the first member.
 class Packet {
@@ -43,90 +43,16 @@ class Packet {
   std::array<std::optional<SightLine>, SightLines::kSize> exact_;
 };
 
-/// A triangle in single precision, about the scene's centre.
-struct Corners {
-  std::array<float, 3> x, y, z;
-  float bulge = 0;  ///< how far it rises at most above its corners' plane
-};
-
-/// Four values at a time, by the extension of GCC and Clang.
-using Four = float __attribute__((vector_size(16)));
-using FourBits = std::int32_t __attribute__((vector_size(16)));
-constexpr unsigned kLanes = 4;
-
-Four greatest(Four a, Four b) {
-  return a > b ? a : b;
-}
-Four least(Four a, Four b) {
-  return a < b ? a : b;
-}
-Four magnitude(Four a) {
-  return greatest(a, -a);
-}
-
-bool no_lane(FourBits bits) {
-  std::array<std::int64_t, 2> halves;
-  std::memcpy(&halves, &bits, sizeof(halves));
-  return (halves[0] | halves[1]) == 0;
-}
-
-/// Some of a packet's rays, from the first to the first + kLanes: all but the last may be missing.
-struct FourRays {
-  FourRays(RTCRayN* ray, unsigned n, unsigned first)
-      : from_x(load(&RTCRayN_org_x(ray, n, first), n)),
-        from_y(load(&RTCRayN_org_y(ray, n, first), n)),
-        from_z(load(&RTCRayN_org_z(ray, n, first), n)),
-        x(load(&RTCRayN_dir_x(ray, n, first), n)),
-        y(load(&RTCRayN_dir_y(ray, n, first), n)),
-        z(load(&RTCRayN_dir_z(ray, n, first), n)) {}
-
-  Four from_x, from_y, from_z, x, y, z;
-
- private:
-  /// Embree's packets have one ray, or whole fours.
-  static Four load(const float* values, unsigned n) {
-    Four four;
-    if (n < kLanes) return Four{*values, *values, *values, *values};
-    std::memcpy(&four, values, sizeof(four));
-    return four;
-  }
-};
-
-/// How far places and heights are off at most, grid units.
-struct Errors {
-  float place = 0, height = 0;
-};
-
-/// Tells for each ray whether it may meet what lies under a triangle: 0 where the triangle certainly lies beside the
-/// ray, or below it.
-FourBits may_touch(const FourRays& ray, const Corners& at, const Errors& errors) {
-  const Four squared = ray.x * ray.x + ray.y * ray.y, about_length = magnitude(ray.x) + magnitude(ray.y);
-  std::array<Four, 3> side, rise;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Four x = at.x[k] - ray.from_x, y = at.y[k] - ray.from_y;
-    side[k] = ray.x * y - ray.y * x;
-    // How high the corner is above the plane that holds the ray and is level across it, times the squared length.
-    rise[k] = (at.z[k] - ray.from_z) * squared - (ray.x * x + ray.y * y) * ray.z;
-  }
-  const Four aside = errors.place * about_length;
-  const FourBits to_the_right = greatest(greatest(side[0], side[1]), side[2]) < -aside;
-  const FourBits to_the_left = least(least(side[0], side[1]), side[2]) > aside;
-  const Four heights = errors.height + at.bulge +
-                       static_cast<float>(kRoundingsOfFilter * kRounding) * (magnitude(ray.from_z) + magnitude(ray.z));
-  const FourBits below = greatest(greatest(rise[0], rise[1]), rise[2]) <
-                         -(heights * squared + errors.place * about_length * magnitude(ray.z));
-  return ~(to_the_right | to_the_left | below);
-}
-
 }  // namespace
 
 class Scene::Impl {
  public:
-  Impl(const Tin& tin, const Earth& earth, double grazing)
+  Impl(const Tin& tin, const Earth& earth, double grazing, Instructions instructions)
       : tin_(tin),
         drop_(earth.drop_coefficient() * tin.grid.resolution),
         grazing_(grazing / tin.grid.resolution),
-        centre_(centre_of(tin)) {
+        centre_(centre_of(tin)),
+        sieve_(ray_sieve(instructions)) {
     measure();
     tree_.emplace(static_cast<std::uint32_t>(tin.triangles.size()), this, BoxTree::Functions{bounds, meet});
   }
@@ -199,13 +125,16 @@ class Scene::Impl {
     top_ = 2 * height + 1;
     half_width_ += 1;
     margin_ = static_cast<float>(kRoundingsOfBoxes * kRounding * half_width_);
-    errors_ = {static_cast<float>(kRoundingsOfFilter * kRounding * half_width_),
-               static_cast<float>(kRoundingsOfFilter * kRounding * top_)};
-    floor_ = static_cast<float>(lowest - 1) - errors_.height;
+    bounds_.place = static_cast<float>(kRoundingsOfSieve * kRounding * half_width_);
+    bounds_.height = static_cast<float>(kRoundingsOfSieve * kRounding * top_);
+    bounds_.rounding = static_cast<float>(kRoundingsOfSieve * kRounding);
+    bounds_.grazing = static_cast<float>(grazing_);
+    bounds_.floor = static_cast<float>(lowest - 1) - bounds_.height;
+    bounds_.finds_hidden = drop_ >= 0;
   }
 
-  Corners corners_of(const Triangle& triangle) const {
-    Corners result;
+  SieveCorners corners_of(const Triangle& triangle) const {
+    SieveCorners result;
     double longest = 0;
     for (std::size_t k = 0; k < 3; ++k) {
       const GridPoint &a = tin_.vertices[triangle[k]], &b = tin_.vertices[triangle[k == 2 ? 0 : k + 1]];
@@ -221,13 +150,13 @@ class Scene::Impl {
 
   static void bounds(const RTCBoundsFunctionArguments* arguments) {
     const auto& self = *static_cast<const Impl*>(arguments->geometryUserPtr);
-    const Corners& at = self.corners_[arguments->primID];
+    const SieveCorners& at = self.corners_[arguments->primID];
     RTCBounds& box = *arguments->bounds_o;
     box.lower_x = std::min({at.x[0], at.x[1], at.x[2]}) - self.margin_;
     box.upper_x = std::max({at.x[0], at.x[1], at.x[2]}) + self.margin_;
     box.lower_y = std::min({at.y[0], at.y[1], at.y[2]}) - self.margin_;
     box.upper_y = std::max({at.y[0], at.y[1], at.y[2]}) + self.margin_;
-    box.lower_z = self.floor_ - self.errors_.height;
+    box.lower_z = self.bounds_.floor - self.bounds_.height;
     box.upper_z = std::max({at.z[0], at.z[1], at.z[2]}) + at.bulge;
   }
 
@@ -238,22 +167,15 @@ class Scene::Impl {
 
   /// Asks of each ray near a triangle whether that hides its line; it then has ended.
   void ask(std::uint32_t triangle, Packet& packet, const RTCOccludedFunctionNArguments& arguments) const {
-    for (unsigned first = 0; first < arguments.N; first += kLanes) {
-      const FourBits near = may_touch(FourRays(arguments.ray, arguments.N, first), corners_[triangle], errors_);
-      if (no_lane(near)) continue;
-      for (unsigned i = first; i < std::min(first + kLanes, arguments.N); ++i)
-        if (near[i - first] != 0 && arguments.valid[i] != 0) ask_one(triangle, packet, arguments, i);
-    }
-  }
-
-  void ask_one(std::uint32_t triangle, Packet& packet, const RTCOccludedFunctionNArguments& arguments,
-               unsigned i) const {
-    const unsigned line = RTCRayN_id(arguments.ray, arguments.N, i);
-    if (!hides(packet.exact(line), triangle)) return;
-    if (packet.stretches != nullptr) return add_stretch(packet.exact(line), triangle, (*packet.stretches)[line]);
-    packet.hidden |= 1U << line;
-    packet.by[line] = triangle;
-    RTCRayN_tfar(arguments.ray, arguments.N, i) = -std::numeric_limits<float>::infinity();
+    const SiftedRays sifted = sieve_(arguments, corners_[triangle], bounds_);
+    for_each_bit(sifted.near, [&](unsigned ray) {
+      const unsigned line = RTCRayN_id(arguments.ray, arguments.N, ray);
+      if (packet.stretches != nullptr) return add_stretch(packet.exact(line), triangle, (*packet.stretches)[line]);
+      if ((sifted.hidden >> ray & 1U) == 0 && !hides(packet.exact(line), triangle)) return;
+      packet.hidden |= 1U << line;
+      packet.by[line] = triangle;
+      RTCRayN_tfar(arguments.ray, arguments.N, ray) = -std::numeric_limits<float>::infinity();
+    });
   }
 
   bool hides(const SightLine& line, std::uint32_t triangle) const {
@@ -262,6 +184,7 @@ class Scene::Impl {
   }
 
   void add_stretch(const SightLine& line, std::uint32_t triangle, std::vector<Stretch>& stretches) const {
+    if (!hides(line, triangle)) return;
     const Triangle& t = tin_.triangles[triangle];
     const auto over = line.ground_over(tin_.vertices[t[0]], tin_.vertices[t[1]], tin_.vertices[t[2]]);
     if (over) stretches.push_back({over->from, over->to});
@@ -303,7 +226,7 @@ class Scene::Impl {
     double first_z = at(from.z, along.z, first), last_z = at(from.z, along.z, last);
     const double lower = kRoundingsOfBoxes * kRounding * (top_ + std::abs(first_z) + std::abs(last_z));
     first_z -= lower, last_z -= lower;
-    if (std::min(first_z, last_z) < floor_) first_z = last_z = floor_;
+    if (std::min(first_z, last_z) < bounds_.floor) first_z = last_z = bounds_.floor;
     rays.org_x[i] = static_cast<float>(at(from.x, along.x, first));
     rays.org_y[i] = static_cast<float>(at(from.y, along.y, first));
     rays.org_z[i] = static_cast<float>(first_z);
@@ -327,13 +250,14 @@ class Scene::Impl {
   // In grid units about the centre: what all the surface is within, and by how much boxes are wider than triangles.
   double half_width_ = 0, top_ = 0;
   float margin_ = 0;
-  float floor_ = 0;  ///< below all of the surface; no ray goes below it
-  Errors errors_;
-  std::vector<Corners> corners_;  ///< each triangle's
+  SieveBounds bounds_;  ///< their floor is below all of the surface; no ray goes below it
+  RaySieve sieve_;
+  std::vector<SieveCorners> corners_;  ///< each triangle's
   std::optional<BoxTree> tree_;
 };
 
-Scene::Scene(const Tin& tin, const Earth& earth, double grazing) : impl_(std::make_unique<Impl>(tin, earth, grazing)) {}
+Scene::Scene(const Tin& tin, const Earth& earth, double grazing, Instructions instructions)
+    : impl_(std::make_unique<Impl>(tin, earth, grazing, instructions)) {}
 Scene::Scene(Scene&&) noexcept = default;
 Scene& Scene::operator=(Scene&&) noexcept = default;
 Scene::~Scene() = default;

@@ -18,7 +18,7 @@
 // each axis; hence boxes that are wider by 16 u X on each side are met. Heights need no wider boxes: both ends of
 // the ray are lowered by 16 u (Z + |z| at either end), Z the greatest height. All boxes begin at one floor below the
 // surface; a line that goes below that is cast level at the floor, where it meets every box along its way. What a
-// packet's callback leaves out in single precision (scene.cpp) is left out by the same bounds.
+// packet's callback leaves out in single precision (ray_sieve.hpp) is left out by the same bounds.
 //
 // So every triangle that hides a line is asked, in double precision, whatever the instruction set, the threads and the
 // shape of the tree: these cannot change an answer.
@@ -34,6 +34,7 @@
 #include <itin/grazing.hpp>
 #include <itin/tin.hpp>
 
+#include "line/instructions.hpp"
 #include "line/sight_lines.hpp"
 
 namespace itin::viewshed {
@@ -54,7 +55,8 @@ class Scene {
  public:
   /// Lines are hidden that the surface rises above by more than `grazing` metres. The Tin must outlive the scene.
   /// Throws std::bad_alloc.
-  Scene(const Tin& tin, const Earth& earth, double grazing = kGrazing);
+  Scene(const Tin& tin, const Earth& earth, double grazing = kGrazing,
+        Instructions instructions = instructions_here().back());
   Scene(Scene&&) noexcept;
   Scene& operator=(Scene&&) noexcept;
   ~Scene();
