@@ -1,5 +1,5 @@
-// Lines from masts to the walls of a town: decided exactly by rays, and by Embree alone, whose single precision errs
-// where a line grazes. benchmarks/peers/rays.sh makes the towns and prints how both compare.
+// Lines from masts to the walls and to the cells of a town: decided exactly by rays, and by Embree alone, whose single
+// precision errs where a line grazes. benchmarks/peers/rays.sh makes the towns and prints how both compare.
 #include <algorithm>
 #include <bit>
 #include <cstdlib>
@@ -28,12 +28,13 @@ namespace {
 
 constexpr int kMastsASide = 4;
 constexpr double kMastHeight = 25;
+constexpr double kCell = 2, kTargetHeight = 2;
 
-/// A town's surface, its masts, and places a metre apart half-way up its walls, those of a building one after another;
-/// all in grid units.
+/// A town's surface, its masts, places a metre apart half-way up its walls, those of a building one after another, and
+/// cells of 2 m, four by four, 2 m above the surface; all in grid units.
 struct Town {
   std::shared_ptr<const PlacedSurface> surface;
-  std::vector<Point3> masts, walls;
+  std::vector<Point3> masts, walls, cells;
 };
 
 Point3 in_units(const Tin& tin, const Point3& metres) {
@@ -49,7 +50,7 @@ Town read_town(const std::string& path) {
     return std::make_shared<const PlacedSurface>(
         triangulate(store, Window::all(), Detail::tolerance(0), progress, themes), progress);
   };
-  Town town{surface(ThemeChoice::all()), {}, {}};
+  Town town{surface(ThemeChoice::all()), {}, {}, {}};
   const auto ground = surface(ThemeChoice::none());
   const Tin& tin = town.surface->tin;
   MountRules rules;
@@ -59,6 +60,14 @@ Town read_town(const std::string& path) {
     for (const WallPlace& place : wall_places({foot, *town.surface, *ground, rules}, progress))
       town.walls.push_back(
           in_units(tin, {place.position.x, place.position.y, place.ground_m + (place.least_m + place.most_m) / 2}));
+  constexpr double kPacket = kPacketSide * kCell;
+  for (double y = box.ymin; y < box.ymax; y += kPacket)
+    for (double x = box.xmin; x < box.xmax; x += kPacket)
+      for (unsigned i = 0; i < SightLines::kSize; ++i) {
+        const Point2 at{x + (i % kPacketSide + 0.5) * kCell, y + (i / kPacketSide + 0.5) * kCell};
+        if (const auto z = town.surface->height(at))
+          town.cells.push_back(in_units(tin, {at.x, at.y, *z + kTargetHeight}));
+      }
   for (int column = 0; column < kMastsASide; ++column) {
     for (int row = 0; row < kMastsASide; ++row) {
       const Point2 at{box.xmin + (0.5 + column) / kMastsASide * (box.xmax - box.xmin),
@@ -80,20 +89,25 @@ const Town* town(benchmark::State& state) {
   return &town;
 }
 
-/// Calls judge(lines) for packets of lines from each mast to all walls.
+/// Targets of the town.
+using Targets = std::vector<Point3> Town::*;
+
+/// Calls judge(lines) for packets of lines from each mast to all targets.
 template <class Judge>
-void judge_all(benchmark::State& state, const Town& of, const Judge& judge) {
+void judge_all(benchmark::State& state, const Town& of, Targets targets, const Judge& judge) {
+  const std::vector<Point3>& all = of.*targets;
+  if (all.empty()) return state.SkipWithError("the store has none");
   std::int64_t lines = 0;
   std::int64_t hidden = 0;
   for (auto _ : state) {
     for (const Point3& mast : of.masts) {
       SightLines packet;
       packet.start_at(mast);
-      for (std::size_t first = 0; first < of.walls.size(); first += SightLines::kSize) {
-        const std::size_t count = std::min<std::size_t>(SightLines::kSize, of.walls.size() - first);
+      for (std::size_t first = 0; first < all.size(); first += SightLines::kSize) {
+        const std::size_t count = std::min<std::size_t>(SightLines::kSize, all.size() - first);
         packet.active = 0;
         for (std::size_t i = 0; i < count; ++i) {
-          const Point3& to = of.walls[first + i];
+          const Point3& to = all[first + i];
           packet.to_x[i] = to.x, packet.to_y[i] = to.y, packet.to_z[i] = to.z;
           packet.active |= 1U << i;
         }
@@ -106,13 +120,14 @@ void judge_all(benchmark::State& state, const Town& of, const Judge& judge) {
   state.counters["hidden"] = static_cast<double>(hidden) / static_cast<double>(std::max<std::int64_t>(1, lines));
 }
 
-void BM_LinesByRays(benchmark::State& state) {
+void BM_LinesByRays(benchmark::State& state, Targets targets) {
   const Town* const of = town(state);
   if (of == nullptr) return;
   const Scene scene(of->surface->tin, Earth{});
-  judge_all(state, *of, [&](const SightLines& lines) { return scene.hidden(lines); });
+  judge_all(state, *of, targets, [&](const SightLines& lines) { return scene.hidden(lines); });
 }
-BENCHMARK(BM_LinesByRays)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(BM_LinesByRays, walls, &Town::walls)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(BM_LinesByRays, cells, &Town::cells)->Unit(benchmark::kMillisecond);
 
 /// The triangles in single precision, about their middle and on a flat Earth, in Embree's own kind of geometry.
 class PlainEmbree {
@@ -173,13 +188,14 @@ class PlainEmbree {
   Point2 centre_;
 };
 
-void BM_LinesByEmbreeAlone(benchmark::State& state) {
+void BM_LinesByEmbreeAlone(benchmark::State& state, Targets targets) {
   const Town* const of = town(state);
   if (of == nullptr) return;
   const PlainEmbree scene(of->surface->tin);
-  judge_all(state, *of, [&](const SightLines& lines) { return scene.hidden(lines); });
+  judge_all(state, *of, targets, [&](const SightLines& lines) { return scene.hidden(lines); });
 }
-BENCHMARK(BM_LinesByEmbreeAlone)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(BM_LinesByEmbreeAlone, walls, &Town::walls)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(BM_LinesByEmbreeAlone, cells, &Town::cells)->Unit(benchmark::kMillisecond);
 
 /// Returns the memory of this process that is in use, bytes.
 double resident() {
@@ -193,12 +209,12 @@ double resident() {
 void BM_SceneOfTown(benchmark::State& state) {
   const Town* const of = town(state);
   if (of == nullptr) return;
-  const double before = resident();
-  double bytes = 0;
-  for (auto _ : state) {
+  double bytes = -resident();
+  {
     const Scene scene(of->surface->tin, Earth{});
-    bytes = std::max(bytes, resident() - before);
+    bytes += resident();
   }
+  for (auto _ : state) const Scene scene(of->surface->tin, Earth{});
   const auto triangles = static_cast<double>(of->surface->tin.triangles.size());
   state.SetItemsProcessed(static_cast<std::int64_t>(state.iterations()) *
                           static_cast<std::int64_t>(of->surface->tin.triangles.size()));
