@@ -76,15 +76,18 @@ class FoliageViews : public test::RollingHill {
   }
 
   /// Asks some cells again as lines of sight, and returns how many of them look through foliage. Also asks all cells of
-  /// the observer's own column and row, to which lines run along edges.
+  /// the observer's own column, row and diagonals, to which lines run along edges.
   int ask_again(const Store& store, const ThroughFoliage& seen, const Foliage& foliage, int wanted) {
     const Result& result = seen.computed.result;
     const auto columns = static_cast<std::size_t>(result.grid.columns());
-    const auto own = result.grid.index(result.grid.cell_at(result.request.observers.front().position).value());
+    const auto own = result.grid.cell_at(result.request.observers.front().position).value();
     std::vector<std::size_t> cells;
     for (int i = 0; i < wanted; ++i) cells.push_back(random_() % result.visible.size());
-    for (std::size_t c = 0; c < result.visible.size(); ++c)
-      if (c % columns == own % columns || c / columns == own / columns) cells.push_back(c);
+    for (std::size_t c = 0; c < result.visible.size(); ++c) {
+      const auto right = static_cast<std::int64_t>(c % columns) - own.column;
+      const auto down = static_cast<std::int64_t>(c / columns) - own.row;
+      if (right == 0 || down == 0 || std::abs(right) == std::abs(down)) cells.push_back(c);
+    }
     int through = 0;
     for (const std::size_t cell : cells) {
       if (result.visible[cell] == Verdict::kOutside) continue;
@@ -119,6 +122,31 @@ TEST_F(FoliageViews, AreWhatLinesOfSightSay) {
     asked.observers_on_surface = i == 1, asked.targets_on_surface = i == 2;
     if (i == 3) asked.detail = Detail::tolerance(2);
     through += ask_again(store, seen(store, asked, sparse), sparse, 100);
+  }
+  EXPECT_GT(through, 20);
+}
+
+/// Woods whose edges lie on rows and columns of cell centres, some side by side, and some of another theme.
+TEST_F(FoliageViews, RunAlongEdgesAsLinesOfSightDo) {
+  const auto centre = [&](double low, double high) { return 10 * std::floor(in(low, high) / 10) + 5; };
+  for (const std::string theme : {"woods", "copses"}) {
+    std::vector<test::LineFeature> woods;
+    for (int i = 0; i < 8; ++i) {
+      const double x = centre(300020, 300450), y = centre(199420, 199850), side = 10 * std::round(in(2, 6));
+      for (const double beside : {0.0, side}) {
+        woods.push_back(test::box(x + beside, y, x + beside + side, y + side, in(4, 15)));
+        woods.back().properties = fmt::format(R"({{"h":{:.2f},"lad":0.02}})", in(4, 15));
+      }
+    }
+    import_woods(theme, woods);
+  }
+  const Store store(path());
+  int through = 0;
+  for (int i = 0; i < 3; ++i) {
+    Request asked = request();
+    asked.observers.front().position = {centre(300050, 300550), centre(199450, 199950)};
+    for (const Foliage& foliage : {Foliage{.leaf_area = 0.02}, Foliage{.leaf_area_field = "lad"}})
+      through += ask_again(store, seen(store, asked, foliage), foliage, 10);
   }
   EXPECT_GT(through, 20);
 }

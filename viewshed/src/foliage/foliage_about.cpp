@@ -57,6 +57,25 @@ struct FoliageAbout::Line {
   LineOverGround over;
 };
 
+struct FoliageAbout::Crossing {
+  GroundPoint at;
+  std::uint16_t theme = 0;
+};
+
+/// On which sides of a line a triangle's corners are. A corner on the line counts as left of it, seen from the end that
+/// SectionLine starts at.
+struct FoliageAbout::Sides {
+  std::array<double, 3> side{};  ///< in proportion to the distance; 0 on the line
+  std::array<bool, 3> left{};
+
+  /// Returns the corners of the edge on the line, if there is one.
+  std::optional<std::pair<std::size_t, std::size_t>> edge_on_line() const {
+    for (std::size_t i = 0; i < 3; ++i)
+      if (side[i] == 0 && side[(i + 1) % 3] == 0) return std::pair(i, (i + 1) % 3);
+    return std::nullopt;
+  }
+};
+
 FoliageAbout::FoliageAbout(const Tin& surface, const std::vector<bool>& vegetation, const Point3& eye,
                            const Earth& earth)
     : surface_(surface),
@@ -149,10 +168,9 @@ std::size_t FoliageAbout::direction_of(double angle) const {
                   static_cast<std::size_t>((turns - std::floor(turns)) * static_cast<double>(directions_)));
 }
 
-bool FoliageAbout::along(const Point3& target, std::vector<Piece>& pieces) const {
-  pieces.clear();
+template <class Visit>
+bool FoliageAbout::for_each_triangle(const Line& line, const Visit& visit) const {
   if (entries_.empty()) return true;
-  const Line line(eye_, target, drop_);
   const std::size_t direction = direction_of(std::atan2(line.dy, line.dx));
   const std::span<const std::uint32_t> list = by_direction_.in(direction);
   const float* highest = highest_.data() + first_few_[direction];
@@ -161,49 +179,104 @@ bool FoliageAbout::along(const Point3& target, std::vector<Piece>& pieces) const
     if (*highest <= line.slope) continue;
     for (const std::uint32_t i : list.subspan(first, std::min(kFew, list.size() - first)))
       if (entries_[i].highest > line.slope && entries_[i].nearest <= line.length &&
-          !add_piece(line, entries_[i].triangle, pieces))
+          !visit(surface_.triangles[entries_[i].triangle]))
         return false;
   }
   return true;
 }
 
-bool FoliageAbout::add_piece(const Line& line, std::uint32_t triangle, std::vector<Piece>& pieces) const {
-  const Triangle& corners = surface_.triangles[triangle];
-  std::array<double, 3> x, y, side;
+bool FoliageAbout::along(const Point3& target, std::vector<Piece>& pieces) const {
+  pieces.clear();
+  const Line line(eye_, target, drop_);
+  return for_each_triangle(line, [&](const Triangle& corners) {
+    const std::optional<Sides> sides = sides_of(line, corners);
+    if (sides) add_piece(line, corners, *sides, pieces);
+    return sides.has_value();
+  });
+}
+
+bool FoliageAbout::along(const Point3& target, const SectionLine& exact, std::vector<Piece>& pieces) const {
+  pieces.clear();
+  const Line line(eye_, target, drop_);
+  // Of two triangles beside an edge that the line runs along, the line counts as passing over the one to its right.
+  using Edge = std::pair<std::uint32_t, std::uint32_t>;
+  std::vector<Edge> beside, over;
+  for_each_triangle(line, [&](const Triangle& corners) {
+    const Sides sides = exact_sides_of(exact, corners);
+    add_piece(line, corners, sides, pieces);
+    const auto edge = sides.edge_on_line();
+    if (!edge) return true;
+    Crossing in = crossing_at(line, corners[edge->first]), out = crossing_at(line, corners[edge->second]);
+    if (out.at.distance < in.at.distance) std::swap(in, out);
+    const bool is_beside = sides.left[0] == sides.left[1] && sides.left[1] == sides.left[2];
+    if (piece_between(line, in, out))
+      (is_beside ? beside : over).push_back(std::minmax({corners[edge->first], corners[edge->second]}));
+    return true;
+  });
+  std::sort(beside.begin(), beside.end()), std::sort(over.begin(), over.end());
+  return std::includes(over.begin(), over.end(), beside.begin(), beside.end());
+}
+
+std::optional<FoliageAbout::Sides> FoliageAbout::sides_of(const Line& line, const Triangle& corners) const {
+  Sides sides;
   int on_line = 0;
   for (std::size_t i = 0; i < 3; ++i) {
     const GridPoint& p = surface_.vertices[corners[i]];
-    x[i] = p.x - eye_.x, y[i] = p.y - eye_.y;
-    side[i] = line.dx * y[i] - line.dy * x[i];
-    on_line += std::abs(side[i]) <= kAlongEdge * line.length ? 1 : 0;
+    sides.side[i] = line.dx * (p.y - eye_.y) - line.dy * (p.x - eye_.x);
+    sides.left[i] = sides.side[i] >= 0;
+    on_line += std::abs(sides.side[i]) <= kAlongEdge * line.length ? 1 : 0;
   }
-  if (on_line > 1) return false;
+  if (on_line > 1) return std::nullopt;
+  return sides;
+}
+
+FoliageAbout::Sides FoliageAbout::exact_sides_of(const SectionLine& line, const Triangle& corners) const {
+  Sides sides;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Int128 side = line.side(surface_.vertices[corners[i]]);
+    sides.left[i] = (side >= 0) != line.is_mirrored();
+    sides.side[i] = static_cast<double>(line.is_mirrored() ? -side : side);
+  }
+  return sides;
+}
+
+void FoliageAbout::add_piece(const Line& line, const Triangle& corners, const Sides& sides,
+                             std::vector<Piece>& pieces) const {
   // The corners are counterclockwise, so that the line enters by the edge that comes from its left side.
-  struct Crossing {
-    GroundPoint at;
-    std::uint16_t theme = 0;
-  } in, out;
+  Crossing in, out;
   bool crosses = false;
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t j = i == 2 ? 0 : i + 1;
-    const bool left = side[i] >= 0;
-    if (left == (side[j] >= 0)) continue;
-    const double w = side[i] / (side[i] - side[j]);
+    if (sides.left[i] == sides.left[j]) continue;
+    const Crossing p = crossing_at(line, corners[i]), q = crossing_at(line, corners[j]);
+    const double w = sides.side[i] / (sides.side[i] - sides.side[j]);
     const auto between = [w](double a, double b) { return a + w * (b - a); };
-    const double distance = (between(x[i], x[j]) * line.dx + between(y[i], y[j]) * line.dy) / line.squared;
-    const double z = between(surface_.vertices[corners[i]].z, surface_.vertices[corners[j]].z);
-    const std::uint16_t theme = theme_of_edge(surface_.raised_theme[corners[i]], surface_.raised_theme[corners[j]]);
-    (left ? in : out) = {{distance, z}, theme};
+    const std::uint16_t theme = sides.side[i] == 0   ? p.theme
+                                : sides.side[j] == 0 ? q.theme
+                                                     : theme_of_edge(p.theme, q.theme);
+    (sides.left[i] ? in : out) = {{between(p.at.distance, q.at.distance), between(p.at.z, q.at.z)}, theme};
     crosses = true;
   }
-  if (!crosses || out.at.distance <= in.at.distance || out.at.distance <= 0 || in.at.distance >= 1) return true;
+  if (!crosses || out.at.distance <= in.at.distance) return;
+  if (const std::optional<Piece> piece = piece_between(line, in, out)) pieces.push_back(*piece);
+}
+
+FoliageAbout::Crossing FoliageAbout::crossing_at(const Line& line, std::uint32_t corner) const {
+  const GridPoint& p = surface_.vertices[corner];
+  const double along = (p.x - eye_.x) * line.dx + (p.y - eye_.y) * line.dy;
+  return {{along / line.squared, 1.0 * p.z}, surface_.raised_theme[corner]};
+}
+
+std::optional<FoliageAbout::Piece> FoliageAbout::piece_between(const Line& line, const Crossing& in,
+                                                               const Crossing& out) const {
+  if (out.at.distance <= 0 || in.at.distance >= 1) return std::nullopt;
   const std::uint16_t theme = theme_of_piece(in.theme, in.at.z, out.theme, out.at.z);
-  if (theme >= vegetation_.size() || !vegetation_[theme]) return true;
+  if (theme >= vegetation_.size() || !vegetation_[theme]) return std::nullopt;
   ClearancePiece piece = line.over.piece(in.at, out.at);
   piece.from = std::max(piece.from, 0.0), piece.to = std::min(piece.to, 1.0);
   const auto [from, to] = piece.above_line(grazing_);
-  if (to > from) pieces.push_back({from, to, theme, in.at.distance == from && in.theme == theme});
-  return true;
+  if (to <= from) return std::nullopt;
+  return Piece{from, to, theme, in.at.distance == from && in.theme == theme};
 }
 
 }  // namespace itin::viewshed

@@ -2,7 +2,7 @@
 //
 //   const FoliageAbout woods(surface, vegetation, eye, earth);
 //   std::vector<FoliageAbout::Piece> pieces;
-//   if (woods.along(target, pieces)) use(pieces);   // else the line runs along an edge
+//   if (woods.along(target, pieces) || woods.along(target, section_line, pieces)) use(pieces);
 //
 // Lines from one eye share the triangles of vegetation in their direction, the nearest first. A bound on how high a
 // triangle rises in the eye's view, and one of every few of them, leave out most of those that a line passes above.
@@ -10,11 +10,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include <itin/bucket_lists.hpp>
 #include <itin/earth.hpp>
 #include <itin/geometry.hpp>
+#include <itin/section_line.hpp>
 #include <itin/tin.hpp>
 
 namespace itin::viewshed {
@@ -37,6 +39,9 @@ class FoliageAbout {
   /// Precondition: eye and target differ horizontally. Cost: about 15 nanoseconds for each triangle of vegetation that
   /// rises above the line.
   bool along(const Point3& target, std::vector<Piece>& pieces) const;
+  /// Does the same where the line runs along edges; `exact` is the same line. Returns false where it runs within
+  /// foliage along an edge that has none on its right side, as at the end of the data.
+  bool along(const Point3& target, const SectionLine& exact, std::vector<Piece>& pieces) const;
 
  private:
   /// A triangle in the eye's view.
@@ -47,12 +52,23 @@ class FoliageAbout {
     std::uint32_t triangle = 0;
   };
   struct Line;
+  struct Sides;
+  /// Where a line meets the triangles' edges, and the theme of what it meets.
+  struct Crossing;
   bool is_foliage(const Triangle& triangle) const;
   Entry entry_of(std::uint32_t triangle) const;
   void list_by_direction();
   std::size_t direction_of(double angle) const;
-  /// Adds the piece over a triangle, if any. Returns false where the line runs along one of its edges.
-  bool add_piece(const Line& line, std::uint32_t triangle, std::vector<Piece>& pieces) const;
+  /// Calls visit(triangle) for all that may rise above the line, until one returns false. Returns whether none did.
+  template <class Visit>
+  bool for_each_triangle(const Line& line, const Visit& visit) const;
+  /// Returns nothing where the line runs along one of the triangle's edges.
+  std::optional<Sides> sides_of(const Line& line, const Triangle& corners) const;
+  Sides exact_sides_of(const SectionLine& line, const Triangle& corners) const;
+  /// Adds the piece over a triangle, if any.
+  void add_piece(const Line& line, const Triangle& corners, const Sides& sides, std::vector<Piece>& pieces) const;
+  Crossing crossing_at(const Line& line, std::uint32_t corner) const;
+  std::optional<Piece> piece_between(const Line& line, const Crossing& in, const Crossing& out) const;
 
   const Tin& surface_;
   const std::vector<bool>& vegetation_;

@@ -58,7 +58,10 @@ class FoliageLines::Walk {
   Stretches along(const Point3& to) const {
     if (same_place(grid_, {eye_.x, eye_.y}, {to.x, to.y})) return {};
     std::vector<FoliageAbout::Piece> pieces;
-    if (!about_.along(in_units(to), pieces)) return by_section(to);
+    if (!about_.along(in_units(to), pieces)) {
+      const SectionLine exact(grid_, {eye_.x, eye_.y}, {to.x, to.y});
+      if (!about_.along(in_units(to), exact, pieces)) return by_section(to);
+    }
     const double length = std::hypot(to.x - eye_.x, to.y - eye_.y), slant = slant_of(eye_, to, length);
     if (lines_.leaves_.vary()) return joined(pieces, length, slant);
     double within = 0;
