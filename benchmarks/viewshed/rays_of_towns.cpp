@@ -64,7 +64,8 @@ Town read_town(const std::string& path) {
   for (double y = box.ymin; y < box.ymax; y += kPacket)
     for (double x = box.xmin; x < box.xmax; x += kPacket)
       for (unsigned i = 0; i < SightLines::kSize; ++i) {
-        const Point2 at{x + (i % kPacketSide + 0.5) * kCell, y + (i / kPacketSide + 0.5) * kCell};
+        const unsigned column = i % kPacketSide, row = i / kPacketSide;
+        const Point2 at{x + (column + 0.5) * kCell, y + (row + 0.5) * kCell};
         if (const auto z = town.surface->height(at))
           town.cells.push_back(in_units(tin, {at.x, at.y, *z + kTargetHeight}));
       }
