@@ -146,6 +146,7 @@ void write_site_report(const std::string& path, const viewshed::SitePlan& r, con
       counted(r.inputs.candidates.size(), "candidate"));
   html += summary(r);
   html += parts.figures.at(0);
+  if (r.levels) html += "<h2>Levels</h2>\n" + parts.figures.at(2);
   html += backhaul(r);
   html += "<h2>" + wording.coverage_curve + "</h2>\n" + coverage_curve(r);
   html += "<h2>" + wording.order + "</h2>\n" + (r.request.turbines ? turbines_html(r) : sites_html(r));

@@ -20,7 +20,11 @@ struct SiteMap {
   ResultSheet sheet;  ///< its title block ends with the fact of the Earth, and has no sources
 };
 
-/// Returns the maps `coverage` and `redundancy`. They are of one area, and show the same objects. They refer to the plan.
+/// Returns the names of the maps of a choice.
+std::vector<std::string> site_map_names(const SitePlanRequest& request);
+
+/// Returns the maps `coverage` and `redundancy`, and `level` where sites are chosen by levels. They are of one area,
+/// and show the same objects. They refer to the plan.
 std::vector<SiteMap> site_maps(const Store& store, const SitePlan& plan, Progress& progress);
 
 /// Draws the maps over a hillshade of the plan's ground.
@@ -28,6 +32,6 @@ std::vector<MapImage> drawn(const Store& store, const SitePlan& plan, const std:
                             Progress& progress);
 
 /// Returns about how many bytes the rasters of a choice on these cells, and the maps of them, take.
-std::uint64_t bytes_of_site_maps(const Store& store, const RasterGrid& grid);
+std::uint64_t bytes_of_site_maps(const Store& store, const SitePlanRequest& request, const RasterGrid& grid);
 
 }  // namespace itin::viewshed

@@ -50,7 +50,9 @@ std::string about_plan(const SitePlan& plan) {
                        request.turbines->minimised_height(), request.demand.height, kilometres);
   return fmt::format(
       "Radius {:g} km, targets {}{}{}", kilometres,
-      plan.inputs.targets.heights.empty() ? fmt::format("{:g} m up", request.demand.height) : "at heights of their own",
+      plan.inputs.targets.heights.empty()
+          ? fmt::format("{:g} m up", request.demand.height)
+          : fmt::format("at heights of their own, cells of the map {:g} m up", request.demand.height),
       request.by_level() ? fmt::format(", {:g} dBm or more at {:g} GHz", request.least_dbm(), *request.frequency_ghz)
       : request.frequency_ghz ? fmt::format(", {:g} F1 clear at {:g} GHz", request.fresnel, *request.frequency_ghz)
                               : "",
@@ -70,6 +72,21 @@ profile::TitleBlock title_of_plan(const Store& store, const SitePlan& r) {
   return title;
 }
 
+std::string about_levels(const SitePlan& r) {
+  return fmt::format("Radius {:g} km, receivers {:g} m up, {:g} GHz", r.request.radius / 1000, r.request.demand.height,
+                     *r.request.frequency_ghz);
+}
+
+/// Returns the map of levels, which has the objects of the coverage's map.
+ResultSheet level_sheet(const SitePlan& r, ResultSheet sheet) {
+  sheet.heading = "Area within the radius";
+  sheet.map = result_map(*r.levels, {});
+  sheet.title.title =
+      fmt::format("Level received from {}", counted(r.choice.chosen.size() + r.inputs.existing(), "site"));
+  sheet.title.facts[1] = {"Receivers", about_levels(r)};
+  return sheet;
+}
+
 /// Returns the level whose hillshade lies under maps of these cells.
 int hillshade_level(const Store& store, const RasterGrid& grid) {
   constexpr std::uint64_t kHillshadePoints = 400000;
@@ -83,11 +100,17 @@ Tin hillshade_surface(const Store& store, const RasterGrid& grid, Progress& prog
 
 }  // namespace
 
-std::uint64_t bytes_of_site_maps(const Store& store, const RasterGrid& grid) {
-  // Bytes per cell: its nearest server, the distance to it, how many serve the cell, and copies of these to draw and to
-  // write.
-  constexpr std::uint64_t kCell = 24, kPoint = 150;
-  return kCell * grid.cell_count() + kPoint * store.points_about(hillshade_level(store, grid), grid.bounds());
+std::uint64_t bytes_of_site_maps(const Store& store, const SitePlanRequest& request, const RasterGrid& grid) {
+  // Bytes per cell: its nearest server, the distance to it, how many serve the cell, its level, margin, outage and
+  // strongest server, and copies of these to draw and to write.
+  constexpr std::uint64_t kCell = 24, kCellWithLevel = 56, kPoint = 150;
+  return (request.by_level() ? kCellWithLevel : kCell) * grid.cell_count() +
+         kPoint * store.points_about(hillshade_level(store, grid), grid.bounds());
+}
+
+std::vector<std::string> site_map_names(const SitePlanRequest& request) {
+  if (request.by_level()) return {"coverage", "redundancy", "level"};
+  return {"coverage", "redundancy"};
 }
 
 std::vector<SiteMap> site_maps(const Store& store, const SitePlan& r, Progress& progress) {
@@ -112,6 +135,7 @@ std::vector<SiteMap> site_maps(const Store& store, const SitePlan& r, Progress& 
   options.counts = r.request.turbines ? "Turbines" : "Served by sites";
   maps[1].sheet.map = result_map(result, options);
   maps[1].sheet.title.title = wording.how_many;
+  if (r.levels) maps.push_back({"level", about_levels(r), level_sheet(r, maps[0].sheet)});
   return maps;
 }
 
