@@ -52,20 +52,46 @@ std::string amount(double v) {
   return v == std::floor(v) && v < 1e15 ? grouped(static_cast<std::uint64_t>(v)) : fmt::format("{:.6g}", v);
 }
 
+/// What the table of chosen sites tells only where it differs from site to site, or from what stands beside it.
+struct SiteColumns {
+  bool base = false;      ///< a mast stands on a roof
+  bool cost = false;      ///< some mast costs other than 1
+  bool estimate = false;  ///< a first look left bounds
+
+  explicit SiteColumns(const viewshed::SitePlan& r) : estimate(!r.all_exact()) {
+    for (std::size_t i = 0; i < r.choice.chosen.size(); ++i) {
+      const std::size_t option = r.choice.chosen[i].option;
+      base = base || std::abs(r.inputs.positions[option].ground - r.ground_m[i]) > 0.05;
+      cost = cost || r.inputs.options[option].cost != 1;
+    }
+  }
+};
+
 std::string sites_html(const viewshed::SitePlan& r) {
-  HtmlTable table({"", "Site", "Easting", "Northing", "Mast m", "Ground m", "Mast base m", "Cost", "Adds",
-                   "Served together", "First estimate: at least", "at most", "Serves alone"},
-                  2);
+  const SiteColumns shown(r);
+  std::vector<std::string> head{"", "Site", "Easting", "Northing", "Mast m", "Ground m"};
+  if (shown.base) head.emplace_back("Mast base m");
+  if (shown.cost) head.emplace_back("Cost");
+  head.insert(head.end(), {"Adds", "Served together", "Serves alone"});
+  if (shown.estimate) head.emplace_back("First estimate");
+  HtmlTable table(head, 2);
   for (std::size_t i = 0; i < r.choice.chosen.size(); ++i) {
     const viewshed::ChosenSite& site = r.choice.chosen[i];
     const viewshed::SitePosition& place = r.place_of(site);
     const viewshed::OptionSurvey& survey = r.surveys[site.option];
-    table.add({fmt::format("{}", i + 1), place.name, fmt::format("{:.0f}", place.position.x),
-               fmt::format("{:.0f}", place.position.y), fmt::format("{:g}", place.height),
-               fmt::format("{:.1f}", r.ground_m[i]), fmt::format("{:.1f}", place.ground),
-               fmt::format("{:g}", r.inputs.options[site.option].cost), amount(r.in_metric(site.gain)),
-               amount(r.in_metric(site.cumulative)), amount(survey.first.certain), amount(survey.first.possible),
-               amount(survey.last.certain)});
+    std::vector<std::string> row{fmt::format("{}", i + 1),
+                                 place.name,
+                                 fmt::format("{:.0f}", place.position.x),
+                                 fmt::format("{:.0f}", place.position.y),
+                                 fmt::format("{:g}", place.height),
+                                 fmt::format("{:.1f}", r.ground_m[i])};
+    if (shown.base) row.push_back(fmt::format("{:.1f}", place.ground));
+    if (shown.cost) row.push_back(fmt::format("{:g}", r.inputs.options[site.option].cost));
+    row.insert(row.end(),
+               {amount(r.in_metric(site.gain)), amount(r.in_metric(site.cumulative)), amount(survey.last.certain)});
+    if (shown.estimate)
+      row.push_back(fmt::format("{} to {}", amount(survey.first.certain), amount(survey.first.possible)));
+    table.add(row);
   }
   return table.finish();
 }
