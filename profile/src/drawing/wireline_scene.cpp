@@ -228,7 +228,7 @@ void WirelineScene::draw_labels(Drawing& drawing) const {
   LabelPlaces places;
   for (const PlacedTurbine* t : seen) {
     const Lettering lettering{
-        .size = part_.label_size, .colour = colour_of(*t->turbine), .align = Align::kCentre, .rim = 1};
+        .size = part_.label_size, .colour = drawn(t->turbine->colour), .align = Align::kCentre, .rim = 1};
     const double half = drawing.text_width(t->turbine->label, lettering) / 2 + 1, row = 1.15 * lettering.size;
     const Point2 tip = at_(t->across, t->top);
     for (double y = tip.y - 4; y - row > frame_.ymin; y -= row) {
