@@ -389,7 +389,7 @@ TEST_F(SitePlans, NameTheStrongestAntennaOfEachCell) {
   std::vector<Server> servers;
   std::vector<std::string> names;
   for (const LinkEnd& end : made.network.ends) {
-    if (end.place.sectors.empty()) servers.push_back({end.place, {}}), names.push_back("existing " + end.place.name);
+    if (end.place.sectors.empty()) servers.push_back({end.place, {}}), names.push_back(end.place.name);
     for (const SiteSector& sector : end.place.sectors)
       servers.push_back({end.place, sector.antenna}), names.push_back(sector.name);
   }
