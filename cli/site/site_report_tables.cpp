@@ -126,7 +126,7 @@ std::string kilometres(double metres) {
 std::string points_html(const viewshed::SitePlan& r) {
   constexpr std::size_t kMostRows = 100;
   const bool by_level = r.request.by_level();
-  std::vector<std::string> head{"Point", "", "Nearest to serving it", "Easting", "Northing", "Weight", "km"};
+  std::vector<std::string> head{"Point", "Service", "Nearest to serving it", "Easting", "Northing", "Weight", "km"};
   if (by_level)
     head.insert(head.end(), {"Level dBm", "Margin dB"});
   else
