@@ -16,6 +16,7 @@
 #include <itin/import.hpp>
 #include <itin/triangulate.hpp>
 #include <viewshed/site_links.hpp>
+#include <viewshed/site_maps.hpp>
 #include <viewshed/site_plan.hpp>
 
 #include "support/brute_force_viewshed.hpp"
@@ -430,6 +431,26 @@ TEST_F(SitePlans, NameTheStrongestAntennaOfEachCell) {
   const std::vector<PlanFile> written = write_site_plan(file("levels"), made, *store_, progress_);
   EXPECT_EQ(written.size(), 15U);
   for (const PlanFile& one : written) EXPECT_TRUE(std::filesystem::is_regular_file(one.path)) << one.path;
+}
+
+/// Pictures in the folder, figures of the report and sheets all come from these maps.
+TEST_F(SitePlans, DrawOnEveryMapWhatTheChoiceDependsOn) {
+  SitePlanRequest asked = request();
+  asked.hub = SitePlace{.position = {300390, 200390}, .height = 70};
+  asked.masts = {{.height = 60}};
+  asked.forbidden = Window::box({300000, 200080, 300100, 200160});
+  const SitePlan made = plan(asked);
+  const std::vector<SiteMap> maps = site_maps(*store_, made, progress_);
+  ASSERT_EQ(maps.size(), 2U);
+  for (const SiteMap& map : maps) {
+    std::set<std::string> shown;
+    for (const MapObjects& objects : map.sheet.objects)
+      for (const profile::SheetKey& key : objects.keys) shown.insert(key.text);
+    for (const char* one :
+         {"Building outline", "No site here", "Link on a route to the hub", "Chosen site", "Existing site", "Hub"})
+      EXPECT_TRUE(shown.contains(one)) << one << " on " << map.name;
+    EXPECT_TRUE(map.sheet.area.contains(asked.hub->position));
+  }
 }
 
 TEST_F(SitePlans, WriteWhatTheyList) {
