@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include <viewshed/site_maps.hpp>
+
 #include "program/field_names.hpp"
 
 namespace itin::cli {
@@ -21,7 +23,7 @@ std::vector<viewshed::PlanFile> site_outputs(const SiteOptions& options, OutputP
   place = add(place, "site.json", "the result as a document");
   add(place, "parameters.json", "for --params: runs this again");
   for (const profile::PaperSize paper : options.sheets.papers())
-    for (const char* map : {"coverage", "redundancy"})
+    for (const std::string& map : viewshed::site_map_names(options.request))
       for (const std::string& name : viewshed::sheet_names(map, paper))
         add(files.end(), name, fmt::format("{}.tif as a map on paper", map));
   for (viewshed::PlanFile& file : files) {

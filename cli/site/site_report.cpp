@@ -48,8 +48,8 @@ std::string drawings(const viewshed::SitePlan& r, const std::vector<SiteProfile>
                                  r.request.hub ? "on routes to the hub" : "that are not hidden");
   html += "<p class=\"note\">A is the site named first, B the second.";
   if (shown < profiles.size())
-    html += fmt::format(" These are {} of {} links that are not hidden{}; the folder links has the profiles of all.",
-                        shown, profiles.size(), r.request.hub ? "" : ", the shortest ones");
+    html += fmt::format(" These are {} of {} links that are not hidden{}.", shown, profiles.size(),
+                        r.request.hub ? "" : ", the shortest ones");
   html += "</p>\n";
   for (const SiteProfile& profile : profiles)
     if (!profile.svg.empty()) html += drawing(profile);
@@ -146,12 +146,14 @@ void write_site_report(const std::string& path, const viewshed::SitePlan& r, con
       counted(r.inputs.candidates.size(), "candidate"));
   html += summary(r);
   html += parts.figures.at(0);
+  if (r.levels) html += "<h2>Levels</h2>\n" + parts.figures.at(2);
   html += backhaul(r);
   html += "<h2>" + wording.coverage_curve + "</h2>\n" + coverage_curve(r);
   html += "<h2>" + wording.order + "</h2>\n" + (r.request.turbines ? turbines_html(r) : sites_html(r));
   if (!r.points.empty()) html += "<h2>Points of the demand</h2>\n" + points_html(r);
-  if (!r.request.sums_heights()) html += "<h2>How closely candidates were surveyed</h2>\n" + stages_html(r);
-  html += "<h2>Candidates that came closest to being chosen</h2>\n" + closest_html(r);
+  if (!r.all_exact()) html += "<h2>How closely candidates were surveyed</h2>\n" + stages_html(r);
+  if (const std::string closest = closest_html(r); !closest.empty())
+    html += "<h2>Candidates that came closest to being chosen</h2>\n" + closest;
   if (!r.network.links.empty()) html += "<h2>Lines of sight between sites</h2>\n" + links_html(r);
   html += drawings(r, parts.profiles);
   html += "<h2>" + wording.count_heading + "</h2>\n" + parts.figures.at(1);

@@ -42,6 +42,11 @@ class HtmlTable {
 std::string metres_clear(const viewshed::SiteLink& link) {
   return link.found().clearance_m ? fmt::format("{:.2f}", *link.found().clearance_m) : "";
 }
+/// Tells whether a link of the plan crosses ground without data.
+bool crosses_missing_ground(const viewshed::SitePlan& r) {
+  return std::any_of(r.network.links.begin(), r.network.links.end(),
+                     [](const viewshed::SiteLink& link) { return link.line.gap_m > 0; });
+}
 std::string fraction_clear(const viewshed::SiteLink& link) {
   return link.found().fresnel ? fmt::format("{:.2f}", link.found().fresnel->fraction) : "";
 }
@@ -52,20 +57,46 @@ std::string amount(double v) {
   return v == std::floor(v) && v < 1e15 ? grouped(static_cast<std::uint64_t>(v)) : fmt::format("{:.6g}", v);
 }
 
+/// What the table of chosen sites tells only where it differs from site to site, or from what stands beside it.
+struct SiteColumns {
+  bool base = false;      ///< a mast stands on a roof
+  bool cost = false;      ///< some mast costs other than 1
+  bool estimate = false;  ///< a first look left bounds
+
+  explicit SiteColumns(const viewshed::SitePlan& r) : estimate(!r.all_exact()) {
+    for (std::size_t i = 0; i < r.choice.chosen.size(); ++i) {
+      const std::size_t option = r.choice.chosen[i].option;
+      base = base || std::abs(r.inputs.positions[option].ground - r.ground_m[i]) > 0.05;
+      cost = cost || r.inputs.options[option].cost != 1;
+    }
+  }
+};
+
 std::string sites_html(const viewshed::SitePlan& r) {
-  HtmlTable table({"", "Site", "Easting", "Northing", "Mast m", "Ground m", "Mast base m", "Cost", "Adds",
-                   "Served together", "First estimate: at least", "at most", "Serves alone"},
-                  2);
+  const SiteColumns shown(r);
+  std::vector<std::string> head{"", "Site", "Easting", "Northing", "Mast m", "Ground m"};
+  if (shown.base) head.emplace_back("Mast base m");
+  if (shown.cost) head.emplace_back("Cost");
+  head.insert(head.end(), {"Adds", "Served together", "Serves alone"});
+  if (shown.estimate) head.emplace_back("First estimate");
+  HtmlTable table(head, 2);
   for (std::size_t i = 0; i < r.choice.chosen.size(); ++i) {
     const viewshed::ChosenSite& site = r.choice.chosen[i];
     const viewshed::SitePosition& place = r.place_of(site);
     const viewshed::OptionSurvey& survey = r.surveys[site.option];
-    table.add({fmt::format("{}", i + 1), place.name, fmt::format("{:.0f}", place.position.x),
-               fmt::format("{:.0f}", place.position.y), fmt::format("{:g}", place.height),
-               fmt::format("{:.1f}", r.ground_m[i]), fmt::format("{:.1f}", place.ground),
-               fmt::format("{:g}", r.inputs.options[site.option].cost), amount(r.in_metric(site.gain)),
-               amount(r.in_metric(site.cumulative)), amount(survey.first.certain), amount(survey.first.possible),
-               amount(survey.last.certain)});
+    std::vector<std::string> row{fmt::format("{}", i + 1),
+                                 place.name,
+                                 fmt::format("{:.0f}", place.position.x),
+                                 fmt::format("{:.0f}", place.position.y),
+                                 fmt::format("{:g}", place.height),
+                                 fmt::format("{:.1f}", r.ground_m[i])};
+    if (shown.base) row.push_back(fmt::format("{:.1f}", place.ground));
+    if (shown.cost) row.push_back(fmt::format("{:g}", r.inputs.options[site.option].cost));
+    row.insert(row.end(),
+               {amount(r.in_metric(site.gain)), amount(r.in_metric(site.cumulative)), amount(survey.last.certain)});
+    if (shown.estimate)
+      row.push_back(fmt::format("{} to {}", amount(survey.first.certain), amount(survey.first.possible)));
+    table.add(row);
   }
   return table.finish();
 }
@@ -95,12 +126,12 @@ std::string kilometres(double metres) {
 std::string points_html(const viewshed::SitePlan& r) {
   constexpr std::size_t kMostRows = 100;
   const bool by_level = r.request.by_level();
-  std::vector<std::string> head{"Point", "", "Nearest to serving it", "Easting", "Northing", "Weight", "km"};
+  std::vector<std::string> head{"Point", "Service", "Nearest to serving it", "Easting", "Northing", "Weight", "km"};
   if (by_level)
     head.insert(head.end(), {"Level dBm", "Margin dB"});
   else
     head.insert(head.end(), {"Clearance m", "of F1"});
-  HtmlTable table(head, 3);
+  HtmlTable table(head, 3, true);
   std::size_t unserved = 0;
   for (const viewshed::PointResult& p : r.points) {
     if (p.service == viewshed::PointService::kServed || ++unserved > kMostRows) continue;
@@ -122,7 +153,7 @@ std::string points_html(const viewshed::SitePlan& r) {
     if (p.line && p.line->fresnel_fraction) row[8] = fmt::format("{:.2f}", *p.line->fresnel_fraction);
     table.add(row);
   }
-  return fmt::format("<p class=\"note\">{} of {} not served{}; demand.csv has all points.</p>\n{}", grouped(unserved),
+  return fmt::format("<p class=\"note\">{} of {} not served{}.</p>\n{}", grouped(unserved),
                      counted(r.points.size(), "point"),
                      unserved > kMostRows ? fmt::format(", of which the first {} are listed", kMostRows) : "",
                      unserved > 0 ? table.finish() : "");
@@ -140,6 +171,7 @@ std::string closest_html(const viewshed::SitePlan& r) {
     const auto& margin = r.choice.closest[i];
     if (margin && !r.is_chosen(i)) order.emplace_back(-closeness(*margin, r.request.objective()), i);
   }
+  if (order.empty()) return {};
   std::sort(order.begin(), order.end());
   HtmlTable table({"Candidate", r.request.turbines ? "Tip m" : "Mast m", "Survey", "Why it was not chosen"}, 4);
   for (std::size_t i = 0; i < std::min<std::size_t>(order.size(), 10); ++i) {
@@ -152,11 +184,14 @@ std::string closest_html(const viewshed::SitePlan& r) {
 
 std::string routes_html(const viewshed::SitePlan& r) {
   const viewshed::SiteNetwork& network = r.network;
-  HtmlTable table({"Site", "Route", "Hops km", "In all km", "Worst hop", "Clearance m", "of F1", "No data km"}, 5,
-                  true);
+  std::vector<std::string> head{"Site", "Route", "Hops km", "In all km", "Worst hop", "Clearance m"};
+  if (r.request.frequency_ghz) head.emplace_back("of F1");
+  if (crosses_missing_ground(r)) head.emplace_back("No data km");
+  HtmlTable table(head, 5, true);
   for (const viewshed::SiteRoute& route : r.routes) {
     std::vector<std::string> row{network.ends[route.site].place.name, in_words(network, route)};
-    row.resize(8);
+    row.resize(6);
+    std::string fraction;
     double gap = 0;
     for (const viewshed::RouteHop& hop : route.hops) {
       const profile::LinkResult& line = network.links[hop.link].line;
@@ -167,20 +202,27 @@ std::string routes_html(const viewshed::SitePlan& r) {
     if (const auto worst = worst_hop(network, route)) {
       const viewshed::SiteLink& link = network.links[worst->link];
       row[4] = network.ends[worst->from].place.name + " to " + network.ends[worst->to].place.name;
-      row[5] = metres_clear(link), row[6] = fraction_clear(link);
+      row[5] = metres_clear(link), fraction = fraction_clear(link);
     }
-    if (gap > 0) row[7] = kilometres(gap);
+    if (r.request.frequency_ghz) row.push_back(fraction);
+    if (crosses_missing_ground(r)) row.push_back(gap > 0 ? kilometres(gap) : "");
     table.add(row);
   }
   return table.finish();
 }
 
 std::string links_html(const viewshed::SitePlan& r) {
-  HtmlTable table({"From", "To", "Verdict", "km", "Clearance m", "of F1", "No data km"}, 3);
+  std::vector<std::string> head{"From", "To", "Verdict", "km", "Clearance m"};
+  if (r.request.frequency_ghz) head.emplace_back("of F1");
+  if (crosses_missing_ground(r)) head.emplace_back("No data km");
+  HtmlTable table(head, 3);
   for (const viewshed::SiteLink& link : r.network.links) {
-    table.add({r.network.from(link).name, r.network.to(link).name, viewshed::outcome_of(r.request, link),
-               kilometres(link.line.distance_m), metres_clear(link), fraction_clear(link),
-               link.line.gap_m > 0 ? kilometres(link.line.gap_m) : ""});
+    std::vector<std::string> row{r.network.from(link).name, r.network.to(link).name,
+                                 viewshed::outcome_of(r.request, link), kilometres(link.line.distance_m),
+                                 metres_clear(link)};
+    if (r.request.frequency_ghz) row.push_back(fraction_clear(link));
+    if (crosses_missing_ground(r)) row.push_back(link.line.gap_m > 0 ? kilometres(link.line.gap_m) : "");
+    table.add(row);
   }
   return table.finish();
 }

@@ -414,8 +414,17 @@ class SitePlan(_OverGrid):
 
     @property
     def best_server(self) -> NDArray[np.uint16]:
-        """The nearest site that serves a cell, from 1 in the order of the choice; 0: none; 65535 outside; a view."""
+        """The site that serves a cell best: the nearest or, with a link budget, the one of the greatest level.
+
+        Sites are numbered from 1 in the order of the choice, and then existing ones; each sector of a mast has a number
+        of its own. 0: none; 65535 outside; a view.
+        """
         return self._core.rasters["best_server"]
+
+    @property
+    def level(self) -> NDArray[np.float32] | None:
+        """With a link budget the greatest level that a site gives a cell, dBm; NaN where none is known; a view."""
+        return self._core.rasters.get("level_dbm")
 
     @property
     def served(self) -> NDArray[np.uint8]:

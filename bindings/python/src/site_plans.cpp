@@ -158,11 +158,13 @@ py::list chosen_of(const Plan& p) {
 }
 
 py::dict rasters_of(const py::object& self) {
-  const viewshed::SiteRasters& rasters = self.cast<const Plan&>().plan.rasters;
+  const viewshed::SitePlan& plan = self.cast<const Plan&>().plan;
+  const viewshed::SiteRasters& rasters = plan.rasters;
   const Shape shape = shape_of(rasters.grid);
   py::dict views;
   views["redundancy"] = view_of(rasters.redundancy.data(), shape, self);
   views["best_server"] = view_of(rasters.best_server.data(), shape, self);
+  if (plan.levels) views["level_dbm"] = view_of(plan.levels->get<viewshed::Levels>().level_dbm.data(), shape, self);
   views["served"] = view_of(reinterpret_cast<const std::uint8_t*>(rasters.served.data()), shape, self);
   return views;
 }

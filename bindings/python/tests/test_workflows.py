@@ -69,6 +69,11 @@ def test_a_mast_with_sectors_is_the_command_line_s(cardiff: itin.Store, tmp_path
     ours, theirs = (list(csv.DictReader((tmp_path / who / "demand.csv").open())) for who in ("ours", "theirs"))
     assert ours == theirs
     assert {row["sector"] for row in ours} == {"north", "south"}
+    assert plan.level is not None and plan.level.shape == plan.grid.shape
+    assert set(np.unique(plan.best_server)) == {0, 1, 2, 65535}
+    by_sector = [plan.level[plan.best_server == number] for number in (1, 2)]
+    assert all(np.nanmin(levels) >= -90 for levels in by_sector)
+    assert (tmp_path / "ours" / "level.qml").read_text() == (tmp_path / "theirs" / "level.qml").read_text()
 
 
 def test_sites_are_proposed_in_an_area_for_weighted_cells(town: itin.Store) -> None:

@@ -20,6 +20,7 @@
 #include <itin/earth.hpp>
 #include <itin/geometry.hpp>
 #include <itin/progress.hpp>
+#include <itin/raster.hpp>
 
 namespace itin::profile {
 
@@ -30,9 +31,10 @@ struct WirelineTurbine {
   double ground_m = 0;
   std::optional<double> hub_m;  ///< nothing: drawn as a mast
   double tip_m = 0;
-  bool seen = true;      ///< whether it is seen, and so labelled
-  std::string farm;      ///< the farm that it belongs to; each has its colour
-  double blade_deg = 0;  ///< how far a blade is turned from upright
+  bool seen = true;            ///< whether it is seen, and so labelled
+  std::string farm;            ///< the farm that it belongs to
+  double blade_deg = 0;        ///< how far a blade is turned from upright
+  Rgba colour = {30, 30, 30};  ///< its farm's; dark enough for thin lines
 };
 
 struct WirelineQuery {

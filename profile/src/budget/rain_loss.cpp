@@ -55,9 +55,10 @@ RainCoefficients coefficients_of(const RainPath& path) {
   return {k, (kh * alpha_h + kv * alpha_v + (kh * alpha_h - kv * alpha_v) * lean) / (2 * k)};
 }
 
-/// The factor between what is exceeded for `percent` of the year and for 0.01 %.
+/// The factor between what is exceeded for `percent` of the year and for 0.01 %. The power of 0.8 in C0 is that of the
+/// frequency, not of its logarithm.
 double scaled_to(double percent, double frequency_ghz) {
-  const double c0 = frequency_ghz < 10 ? 0.12 : 0.12 + 0.4 * std::pow(std::log10(frequency_ghz / 10), 0.8);
+  const double c0 = frequency_ghz < 10 ? 0.12 : 0.12 + 0.4 * std::log10(std::pow(frequency_ghz / 10, 0.8));
   const double c1 = std::pow(0.07, c0) * std::pow(0.12, 1 - c0);
   const double c2 = 0.855 * c0 + 0.546 * (1 - c0);
   const double c3 = 0.139 * c0 + 0.043 * (1 - c0);

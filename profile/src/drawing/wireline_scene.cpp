@@ -48,43 +48,22 @@ std::vector<PlacedTurbine> placed_turbines(const WirelineQuery& query) {
   return placed;
 }
 
-std::vector<std::string> farms_of(const WirelineQuery& query) {
-  std::vector<std::string> farms;
-  for (const WirelineTurbine& t : query.turbines)
-    if (std::find(farms.begin(), farms.end(), t.farm) == farms.end()) farms.push_back(t.farm);
-  return farms;
-}
-
-Colour farm_colour(std::size_t farm) {
-  // Colours that are dark enough for thin lines, and differ with every kind of colour blindness; they repeat.
-  constexpr std::array<Colour, 7> kColours{{{0.80, 0.16, 0.10},
-                                            {0.00, 0.35, 0.70},
-                                            {0.00, 0.52, 0.38},
-                                            {0.60, 0.25, 0.60},
-                                            {0.75, 0.45, 0.00},
-                                            {0.10, 0.55, 0.75},
-                                            {0.35, 0.35, 0.35}}};
-  return kColours[farm % kColours.size()];
-}
-
 void draw_farm_names(Drawing& drawing, const WirelineQuery& query, Point2 right_end, double size, double gap) {
-  const std::vector<std::string> farms = farms_of(query);
-  if (farms.size() < 2) return;
-  for (std::size_t f = farms.size(); f-- > 0;) {
-    const Lettering lettering{.size = size, .colour = farm_colour(f), .align = Align::kRight, .bold = true};
-    const std::string name = farms[f].empty() ? "(no farm)" : farms[f];
+  std::vector<std::pair<std::string, Rgba>> farms;
+  for (const WirelineTurbine& t : query.turbines)
+    if (std::none_of(farms.begin(), farms.end(), [&](const auto& farm) { return farm.first == t.farm; }))
+      farms.emplace_back(t.farm, t.colour);
+  if (std::all_of(farms.begin(), farms.end(), [&](const auto& farm) { return farm.second == farms[0].second; })) return;
+  for (auto farm = farms.rbegin(); farm != farms.rend(); ++farm) {
+    const Lettering lettering{.size = size, .colour = drawn(farm->second), .align = Align::kRight, .bold = true};
+    const std::string name = farm->first.empty() ? "(no farm)" : farm->first;
     drawing.text(right_end, name, lettering);
     right_end.x -= drawing.text_width(name, lettering) + gap;
   }
 }
 
 WirelineScene::WirelineScene(const Wireline& view, const Box& frame, WirelineProjection projection, const Part& part)
-    : view_(view),
-      frame_(frame),
-      at_(std::move(projection)),
-      part_(part),
-      farms_(farms_of(view.query)),
-      turbines_(placed_turbines(view.query)) {
+    : view_(view), frame_(frame), at_(std::move(projection)), part_(part), turbines_(placed_turbines(view.query)) {
   std::erase_if(turbines_, [&](const PlacedTurbine& t) { return !within(t.across); });
 }
 
@@ -203,13 +182,9 @@ Stroke WirelineScene::mesh_stroke(const WirelineBand& band) const {
   return {{grey, grey, grey}, 0.3 * part_.weight, {}};
 }
 
-Colour WirelineScene::colour_of(const WirelineTurbine& turbine) const {
-  return farm_colour(static_cast<std::size_t>(std::find(farms_.begin(), farms_.end(), turbine.farm) - farms_.begin()));
-}
-
 void WirelineScene::draw_turbine(Drawing& drawing, const PlacedTurbine& placed, bool dashed) const {
   const WirelineTurbine& t = *placed.turbine;
-  Stroke stroke{colour_of(t), 0.35 * part_.weight, {}};
+  Stroke stroke{drawn(t.colour), 0.35 * part_.weight, {}};
   if (dashed) stroke.dashes = {1.5, 1.5};
   // The place of a point of the rotor's disc, or of the mast, metres to the right of the axis and above the ground.
   const auto point = [&](double right, double height) {
@@ -253,7 +228,7 @@ void WirelineScene::draw_labels(Drawing& drawing) const {
   LabelPlaces places;
   for (const PlacedTurbine* t : seen) {
     const Lettering lettering{
-        .size = part_.label_size, .colour = colour_of(*t->turbine), .align = Align::kCentre, .rim = 1};
+        .size = part_.label_size, .colour = drawn(t->turbine->colour), .align = Align::kCentre, .rim = 1};
     const double half = drawing.text_width(t->turbine->label, lettering) / 2 + 1, row = 1.15 * lettering.size;
     const Point2 tip = at_(t->across, t->top);
     for (double y = tip.y - 4; y - row > frame_.ymin; y -= row) {

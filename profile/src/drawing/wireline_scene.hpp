@@ -29,10 +29,8 @@ struct PlacedTurbine {
 /// The turbines within the field of view and its reach, from the farthest.
 std::vector<PlacedTurbine> placed_turbines(const WirelineQuery& query);
 
-/// Farms in the order of their first turbines, and the colour of each farm.
-std::vector<std::string> farms_of(const WirelineQuery& query);
-Colour farm_colour(std::size_t farm);
-/// Writes the farms' names in their colours on one line that ends at `right_end`, where there are several farms.
+/// Writes the farms' names in their colours, in the order of their first turbines, on one line that ends at
+/// `right_end`, where there are several farms that colours tell apart.
 void draw_farm_names(Drawing& drawing, const WirelineQuery& query, Point2 right_end, double size, double gap);
 
 class WirelineScene {
@@ -60,14 +58,12 @@ class WirelineScene {
   std::pair<std::size_t, std::size_t> lines_within() const;
   Stroke stroke_of(const WirelineBand& band) const;
   Stroke mesh_stroke(const WirelineBand& band) const;
-  Colour colour_of(const WirelineTurbine& turbine) const;
   bool within(double across) const { return across >= part_.from_deg && across <= part_.to_deg; }
 
   const Wireline& view_;
   Box frame_;
   WirelineProjection at_;
   Part part_;
-  std::vector<std::string> farms_;
   std::vector<PlacedTurbine> turbines_;
 };
 

@@ -1,10 +1,14 @@
 #include "report/location_figure.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
+
+#include <itin/counted.hpp>
 
 #include "report/chart_frame.hpp"
 #include "sheet/map_frame.hpp"
@@ -42,8 +46,8 @@ void draw_location(Drawing& drawing, const Box& area, const MapSheet& map) {
   frame.draw(map);
   double y = paper.frame.ymax + kReferences;
   const auto add = [&](const std::string& line) { drawing.text({area.xmin, y}, line, kCaption), y += kLine; };
-  add(fmt::format("1:{:.0f} at {}; grid north is up{}{}", scale, paper.name, frame.left_out().empty() ? "" : "; ",
-                  frame.left_out()));
+  add(fmt::format("1:{} at {}; grid north is up{}{}", grouped(static_cast<std::uint64_t>(std::nearbyint(scale))),
+                  paper.name, frame.left_out().empty() ? "" : "; ", frame.left_out()));
   for (const std::string& line : legend) add(line);
 }
 

@@ -99,7 +99,7 @@ std::vector<Point2> MapFrame::label_places(const SheetLine& line) const {
 
 void MapFrame::label_line(const SheetLine& line, const Rgba& colour) {
   if (line.label.empty()) return;
-  const Lettering lettering{.size = 6 * paper_.type, .colour = opaque(colour), .align = Align::kCentre, .rim = 1.4};
+  const Lettering lettering{.size = paper_.letters(6), .colour = opaque(colour), .align = Align::kCentre, .rim = 1.4};
   const double half = drawing_.text_width(line.label, lettering) / 2 + 1, up = lettering.size / 2;
   for (const Point2& p : label_places(line)) {
     const Box box{p.x - half, p.y - up, p.x + half, p.y + up};
@@ -116,7 +116,7 @@ void MapFrame::label_marks(const SheetMarks& marks) {
   const double size = 3.4 * kPointsPerMillimetre * paper_.type,
                up = marks.symbol == SheetSymbol::kTurbine ? 0.4 * size : 0;
   const bool bold = marks.symbol == SheetSymbol::kViewpoint;
-  const Lettering lettering{.size = (bold ? 7 : 5.5) * paper_.type, .colour = kInk, .bold = bold, .rim = 1.4};
+  const Lettering lettering{.size = paper_.letters(bold ? 7 : 5.5), .colour = kInk, .bold = bold, .rim = 1.4};
   for (const SheetMark& mark : marks.marks) {
     const Point2 p = at(mark.at);
     if (mark.label.empty() || !paper_.frame.contains(p)) continue;
@@ -137,7 +137,7 @@ void MapFrame::draw_grid(const std::string& crs_wkt) {
                arm = 1.2 * kPointsPerMillimetre * paper_.type;
   const Box& frame = paper_.frame;
   const Stroke fine{kGridInk, 0.35 * paper_.type, {}};
-  const Lettering outside{.size = 5.5 * paper_.type, .colour = kInk, .align = Align::kCentre};
+  const Lettering outside{.size = paper_.letters(5.5), .colour = kInk, .align = Align::kCentre};
   const Lettering inside{.size = 4.5 * paper_.type, .colour = kGridInk, .rim = 0.8};
   const bool national = is_national_grid(crs_wkt);
   const auto label = [](double metres) { return fmt::format("{:.10g}", metres / 1000); };

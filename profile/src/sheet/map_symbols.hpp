@@ -7,10 +7,6 @@
 
 namespace itin::profile {
 
-inline Colour drawn(const Rgba& c) {
-  return {c.red / 255.0, c.green / 255.0, c.blue / 255.0, c.alpha / 255.0};
-}
-
 /// Draws a mark; `size` is its height in points.
 void draw_symbol(Drawing& drawing, SheetSymbol symbol, Point2 at, double size, const Rgba& colour);
 

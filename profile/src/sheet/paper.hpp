@@ -2,6 +2,7 @@
 // Lengths are points, 1/72 inch.
 #pragma once
 
+#include <algorithm>
 #include <string>
 
 #include <itin/geometry.hpp>
@@ -19,6 +20,10 @@ struct Paper {
   std::string name;  ///< "A3"; empty for a picture, which has no scale of its own
   Box frame;         ///< about the map
   Box panel;
+
+  /// Returns the size of letters that are so large on A3. None are smaller than can be read in print.
+  double letters(double points) const { return std::max(kLeastLetters, points * type); }
+  static constexpr double kLeastLetters = 6;
 };
 
 Paper paper_of(PaperSize size);

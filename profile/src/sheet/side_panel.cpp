@@ -54,7 +54,7 @@ void SidePanel::rule() {
 }
 
 void SidePanel::paragraph(const std::string& text, double size, bool bold) {
-  const Lettering lettering{.size = size * paper_.type, .colour = kInk, .bold = bold};
+  const Lettering lettering{.size = paper_.letters(size), .colour = kInk, .bold = bold};
   for (const std::string& line : drawing_.lines(text, right_ - left_, lettering)) {
     y_ += 1.28 * lettering.size;
     if (!measuring_) drawing_.text({left_, y_}, line, lettering);
@@ -80,7 +80,7 @@ void SidePanel::draw_key(const SheetKey& key) {
   if (key.sample == SheetKey::Sample::kHeading) return paragraph(key.text, 7.5, true);
   const Box patch{x, middle - 0.36 * row, x + width, middle + 0.36 * row};
   draw_sample(drawing_, key, patch, paper_.type);
-  const Lettering lettering{.size = 7 * paper_.type, .colour = kInk};
+  const Lettering lettering{.size = paper_.letters(7), .colour = kInk};
   const double text = x + width + 2 * kPointsPerMillimetre * paper_.type;
   double baseline = middle + 0.36 * lettering.size;
   for (const std::string& line : drawing_.lines(key.text, right_ - text, lettering)) {

@@ -1,9 +1,11 @@
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 
 #include <fmt/format.h>
 
+#include <itin/counted.hpp>
 #include <itin/error.hpp>
 #include <profile/wireline_sheet.hpp>
 
@@ -147,7 +149,8 @@ std::string draw_viewpoint_sheet(const Wireline& view, const ViewpointSheet& she
   map.draw(sheet.map);
   const std::string left_out = map.left_out();
   drawing.text({paper.frame.xmin, paper.frame.ymax + 22},
-               fmt::format("Location, 1:{:.0f} at A3; grid north is up{}{}", sheet.map.scale,
+               fmt::format("Location, 1:{} at A3; grid north is up{}{}",
+                           grouped(static_cast<std::uint64_t>(std::nearbyint(sheet.map.scale))),
                            left_out.empty() ? "" : "; ", left_out),
                name_of_fact);
   const double image = kSheetWidth - 2 * kSheetMargin, principal = image / (std::numbers::pi / 2);

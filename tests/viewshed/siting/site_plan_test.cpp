@@ -4,7 +4,9 @@
 #include <filesystem>
 #include <limits>
 #include <map>
+#include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -14,6 +16,7 @@
 #include <itin/import.hpp>
 #include <itin/triangulate.hpp>
 #include <viewshed/site_links.hpp>
+#include <viewshed/site_maps.hpp>
 #include <viewshed/site_plan.hpp>
 
 #include "support/brute_force_viewshed.hpp"
@@ -363,6 +366,91 @@ TEST_F(SitePlans, ServeByLevelTheCellsOfTheViewshed) {
   }
   EXPECT_GT(served, 0U);
   EXPECT_GT(unserved, 0U);
+}
+
+/// The server of a cell is the antenna whose single line to it has the greatest level.
+TEST_F(SitePlans, NameTheStrongestAntennaOfEachCell) {
+  constexpr double kLeast = -78;
+  SitePlanRequest asked = request();
+  asked.nodata = NoData::kClear;
+  asked.count = 2;
+  asked.frequency_ghz = 5.8;
+  asked.link_budget = {.power_dbm = 0, .sensitivity_dbm = kLeast};
+  const auto pattern = std::make_shared<profile::AntennaPattern>(
+      profile::AntennaPattern{{{0, 0}, {60, 3}, {180, 25}, {300, 3}}, {{0, 0}, {90, 10}, {180, 20}, {270, 10}}, 15});
+  for (SitePlace& place : asked.candidates.places)
+    for (const int azimuth : {0, 120, 240})
+      place.sectors.push_back({place.name + " at " + std::to_string(azimuth), {pattern, azimuth, 2}});
+  const SitePlan made = plan(asked);
+
+  struct Server {
+    SitePosition site;
+    profile::AimedAntenna antenna;
+  };
+  std::vector<Server> servers;
+  std::vector<std::string> names;
+  for (const LinkEnd& end : made.network.ends) {
+    if (end.place.sectors.empty()) servers.push_back({end.place, {}}), names.push_back(end.place.name);
+    for (const SiteSector& sector : end.place.sectors)
+      servers.push_back({end.place, sector.antenna}), names.push_back(sector.name);
+  }
+  EXPECT_EQ(made.rasters.servers, names);
+  EXPECT_EQ(names.size(), 7U);
+
+  profile::LinkQuery query = link_rules(asked).query;
+  query.budget = asked.link_budget;
+  const RasterGrid& grid = made.rasters.grid;
+  const std::vector<float>& levels = made.levels->get<Levels>().level_dbm;
+  std::set<std::size_t> named;
+  std::size_t unserved = 0;
+  for (std::size_t cell = 0; cell < grid.cell_count(); cell += 7) {
+    const Point2 centre =
+        grid.centre(static_cast<std::int64_t>(cell) % grid.columns(), static_cast<std::int64_t>(cell) / grid.columns());
+    std::vector<double> given(servers.size(), -std::numeric_limits<double>::infinity());
+    for (std::size_t i = 0; i < servers.size(); ++i) {
+      const double metres = distance(servers[i].site.position, centre);
+      if (metres > asked.radius || metres == 0) continue;
+      profile::Link link = link_between(servers[i].site, {"", centre, asked.demand.height});
+      link.budget.from_antenna = servers[i].antenna;
+      const auto budget = link_budget_of(link, survey_link(*store_, link, query), query);
+      if (budget) given[i] = budget->level_dbm;
+    }
+    const double greatest = *std::max_element(given.begin(), given.end());
+    const std::size_t server = made.rasters.best_server[cell];
+    if (made.rasters.served[cell] == Verdict::kOutside || std::isinf(greatest)) continue;
+    EXPECT_NEAR(levels[cell], greatest, 1e-3) << cell;
+    EXPECT_EQ(server > 0, greatest >= kLeast) << cell;
+    unserved += server == 0 ? 1U : 0U;
+    if (server == 0 || server > given.size()) continue;
+    EXPECT_NEAR(given[server - 1], greatest, 1e-3) << cell;
+    named.insert(server);
+  }
+  EXPECT_GT(named.size(), 3U);
+  EXPECT_GT(unserved, 0U);
+
+  const std::vector<PlanFile> written = write_site_plan(file("levels"), made, *store_, progress_);
+  EXPECT_EQ(written.size(), 15U);
+  for (const PlanFile& one : written) EXPECT_TRUE(std::filesystem::is_regular_file(one.path)) << one.path;
+}
+
+/// Pictures in the folder, figures of the report and sheets all come from these maps.
+TEST_F(SitePlans, DrawOnEveryMapWhatTheChoiceDependsOn) {
+  SitePlanRequest asked = request();
+  asked.hub = SitePlace{.position = {300390, 200390}, .height = 70};
+  asked.masts = {{.height = 60}};
+  asked.forbidden = Window::box({300000, 200080, 300100, 200160});
+  const SitePlan made = plan(asked);
+  const std::vector<SiteMap> maps = site_maps(*store_, made, progress_);
+  ASSERT_EQ(maps.size(), 2U);
+  for (const SiteMap& map : maps) {
+    std::set<std::string> shown;
+    for (const MapObjects& objects : map.sheet.objects)
+      for (const profile::SheetKey& key : objects.keys) shown.insert(key.text);
+    for (const char* one :
+         {"Building outline", "No site here", "Link on a route to the hub", "Chosen site", "Existing site", "Hub"})
+      EXPECT_TRUE(shown.contains(one)) << one << " on " << map.name;
+    EXPECT_TRUE(map.sheet.area.contains(asked.hub->position));
+  }
 }
 
 TEST_F(SitePlans, WriteWhatTheyList) {

@@ -29,20 +29,12 @@ struct ClassShares {
   double seen = 0, unseen = 0, undecided = 0;
 };
 
-/// Places that a map marks by dots of one colour, without names.
-struct MapDots {
-  std::string text = {};  ///< in the legend
-  Rgba colour = {};
-  std::vector<Point2> places = {};
-};
-
 struct MapOptions {
   std::string title = "Viewshed";
   std::string subtitle = {};                        ///< empty: observer and target heights, radius, refraction
   std::string seen = "Visible", unseen = "Hidden";  ///< in the legend, where cells are one of the two
   std::optional<ClassShares> shares = {};           ///< in the legend; nothing: shares of the cells with data in view
   std::string observers = {};                       ///< what the legend calls them; empty: "Observers"
-  std::vector<MapDots> dots = {};                   ///< below the observers, the lowest first
   std::string counts = "Number of observers that see the place";  ///< heads the scale of Mode::kCount
   std::string outside = "Outside the field of view, or no data";
   std::vector<std::uint8_t> no_data = {};  ///< one per cell: 1 to stripe it as without ground; empty: none

@@ -281,9 +281,12 @@ struct SiteRoute {
 /// beyond reach: of all candidates and existing sites, or, where demand is points, of the chosen and existing ones.
 struct SiteRasters {
   RasterGrid grid;
-  std::vector<std::uint16_t> redundancy;   ///< how many serve a cell; kOutside beyond reach or data
-  std::vector<std::uint16_t> best_server;  ///< the nearest that serves a cell; 1: the first chosen; 0: none
-  std::vector<Verdict> served;             ///< kVisible: by enough sites
+  std::vector<std::uint16_t> redundancy;  ///< how many serve a cell; kOutside beyond reach or data
+  /// Which of `servers` serves a cell best, from 1; 0: none. It is the nearest that serves it or, with a link budget,
+  /// the one that gives it the greatest level; the nearest again where ground without data leaves a level open.
+  std::vector<std::uint16_t> best_server;
+  std::vector<Verdict> served;       ///< kVisible: by enough sites
+  std::vector<std::string> servers;  ///< the names of the sites; of a site with sectors, those of its sectors
   static constexpr std::uint16_t kOutside = 65535;
 
   std::uint64_t count(Verdict verdict) const {
@@ -352,6 +355,9 @@ struct SitePlan {
   double undecided = 0;
   ClassShares shares;  ///< what the chosen and the existing sites serve of the demand, or leave undecided
   SiteRasters rasters;
+  /// With a link budget, the levels that the chosen and the existing sites give to the cells of the rasters, as
+  /// compute() has them in mode kLevel; its observers are the rasters' servers. Else null.
+  std::shared_ptr<const Result> levels;
   std::vector<PointResult> points;  ///< where masts serve points, each of these, in the order in which they were given
   /// Where premises are the demand, what those of the chosen and the existing sites that serve any are to each building
   /// (premises.hpp); else null.

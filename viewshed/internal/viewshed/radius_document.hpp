@@ -10,7 +10,7 @@ namespace itin::viewshed {
 
 Document radius_document(const RadiusRule& rule);
 
-/// Describes the rule in one sentence.
-std::string radius_text(const RadiusRule& rule);
+/// Describes the rule in one sentence. `of_proposal` tells whether it counts from proposed turbines alone.
+std::string radius_text(const RadiusRule& rule, bool of_proposal);
 
 }  // namespace itin::viewshed

@@ -11,6 +11,7 @@
 #include <profile/map_sheet.hpp>
 #include <profile/sheet_choice.hpp>
 #include <viewshed/map_base.hpp>
+#include <viewshed/map_image.hpp>
 #include <viewshed/missing_ground.hpp>
 #include <viewshed/result_map.hpp>
 
@@ -28,8 +29,6 @@ struct MapObjects {
 inline constexpr Rgba kMastColour{213, 94, 0, 255};
 /// Masts or eyes, as all maps mark them.
 MapObjects mast_objects(std::vector<profile::SheetMark> masts, std::string key);
-
-MapObjects dot_objects(const MapDots& dots);
 
 /// The places where the map is striped as without ground, and what the legend says about them; both empty if there are
 /// none. `there` is called on any thread.
@@ -84,5 +83,8 @@ profile::MapSheet map_sheet(const Store& store, const ResultSheet& content, cons
 /// Returns the bytes of a .pdf or .png, by the ending of `name`. Throws what base_of() throws.
 std::string draw_result_sheet(const Store& store, const ResultSheet& content, profile::PaperSize paper,
                               const profile::SheetChoice& choice, const std::string& name, Progress& progress);
+
+/// Draws the map as a picture over the relief, which fills the map's area, with a panel beside it as high as it needs.
+MapImage draw_result_picture(const Relief& ground, ResultSheet content, const std::string& crs_wkt);
 
 }  // namespace itin::viewshed

@@ -38,6 +38,9 @@ struct LinkStudy {
 
 /// Returns the farms of a zone in the order of their first turbines.
 std::vector<std::string> farms_of(const Zone& zone);
+/// Returns a colour for each of these farms, on maps, wirelines and layers alike: dark enough for thin lines, and told
+/// apart with every kind of colour blindness. Where the farms are too many to be told apart, all have one colour.
+std::vector<Rgba> farm_colours(const Zone& zone);
 
 /// Counts the turbines whose hub height is known; others do not count among the hubs.
 std::size_t known_hubs(const Zone& zone);

@@ -71,7 +71,6 @@ ResultSheet content_of(const Result& result, const MapOptions& options) {
   content.grid = result.grid, content.area = result.grid.bounds();
   content.map = result_map(result, options);
   content.studied = in_cells(result.grid, [&](std::size_t cell) { return result.visible[cell] != Verdict::kOutside; });
-  for (const MapDots& dots : options.dots) content.objects.push_back(dot_objects(dots));
   content.objects.push_back(observers_of(result, options));
   content.title = title_of(result, options);
   content.outside = options.outside;
@@ -87,18 +86,22 @@ MapImage drawn_map(const HeightsOf& heights_of, const Result& result, const MapO
   require_possible(options);
   ResultSheet content = content_of(result, options);
   const RasterGrid pixels = filling_grid(content.area, options.map_pixels);
-  const MapBase base = fitted(plain_base(hillshade(pixels, heights_of(pixels))), content,
-                              profile::void_stripe_pixels(options.map_pixels));
-  profile::MapSheet sheet;
-  sheet.area = content.area, sheet.crs_wkt = options.crs_wkt;
-  sheet.legend = keys_of(base, content, content.area);
-  sheet.title = content.title;
-  sheet.layers = layers_of(base, std::move(content));
-  const profile::MapPicture picture = profile::draw_map_picture(sheet, options.map_pixels);
-  return {picture.width, picture.height, {picture.rgb.begin(), picture.rgb.end()}};
+  return draw_result_picture(hillshade(pixels, heights_of(pixels)), std::move(content), options.crs_wkt);
 }
 
 }  // namespace
+
+MapImage draw_result_picture(const Relief& ground, ResultSheet content, const std::string& crs_wkt) {
+  const int pixels = static_cast<int>(std::max(ground.pixels.columns(), ground.pixels.rows()));
+  const MapBase base = fitted(plain_base(ground), content, profile::void_stripe_pixels(pixels));
+  profile::MapSheet sheet;
+  sheet.area = content.area, sheet.crs_wkt = crs_wkt;
+  sheet.legend = keys_of(base, content, content.area);
+  sheet.title = content.title;
+  sheet.layers = layers_of(base, std::move(content));
+  const profile::MapPicture picture = profile::draw_map_picture(sheet, pixels);
+  return {picture.width, picture.height, {picture.rgb.begin(), picture.rgb.end()}};
+}
 
 MapImage draw_map(const Tin& tin, const Result& result, const MapOptions& options) {
   return drawn_map([&](const RasterGrid& pixels) { return heights_at(tin, pixels); }, result, options);

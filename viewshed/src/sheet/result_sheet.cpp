@@ -129,12 +129,6 @@ MapObjects mast_objects(std::vector<profile::SheetMark> masts, std::string key) 
           {{SheetKey::Sample::kMark, {kMastColour}, std::move(key)}}};
 }
 
-MapObjects dot_objects(const MapDots& dots) {
-  profile::SheetMarks marks{profile::SheetSymbol::kDot, dots.colour, {}};
-  for (const Point2& at : dots.places) marks.marks.push_back({at, ""});
-  return {{std::move(marks)}, {{SheetKey::Sample::kMark, {dots.colour}, dots.text, profile::SheetSymbol::kDot}}};
-}
-
 MissingOnSheet missing_on_sheet(PlacesWithoutGround places, const MissingGround& missing, const std::string& area) {
   if (missing.share() == 0) return {};
   return {[places = std::move(places)](Point2 p) { return places.contain(p); }, missing.key_text(area)};

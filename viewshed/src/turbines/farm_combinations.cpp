@@ -1,6 +1,8 @@
 #include "turbines/farm_combinations.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <set>
 #include <utility>
 
@@ -93,6 +95,20 @@ std::vector<std::string> farms_of(const Zone& zone) {
   for (const Turbine& t : zone.request.turbines)
     if (std::find(farms.begin(), farms.end(), t.farm) == farms.end()) farms.push_back(t.farm);
   return farms;
+}
+
+std::vector<Rgba> farm_colours(const Zone& zone) {
+  constexpr std::array<Rgba, 8> kColours{{{204, 41, 26},
+                                          {0, 89, 178},
+                                          {0, 133, 97},
+                                          {153, 64, 153},
+                                          {191, 115, 0},
+                                          {26, 140, 191},
+                                          {89, 89, 89},
+                                          {105, 60, 20}}};
+  const std::size_t farms = farms_of(zone).size();
+  if (farms > kColours.size()) return std::vector<Rgba>(farms, kColours.front());
+  return {kColours.begin(), kColours.begin() + static_cast<std::ptrdiff_t>(farms)};
 }
 
 std::vector<std::uint32_t> farm_combinations(const Zone& zone, const Visibility& visibility) {

@@ -56,6 +56,10 @@ std::unique_ptr<GroupSurvey> survey_by_bins(const Store& store, const SiteSurvey
 /// itself.
 std::unique_ptr<GroupSurvey> survey_levels(const Store& store, const SiteSurvey& survey);
 
+/// Returns the request for the levels that sites give to cells, without a grid. Its observers are the antennas of the
+/// sites, in their order. Precondition: the survey has a level.
+Request request_of_levels(const SiteSurvey& survey, std::span<const SitePosition> sites);
+
 /// Returns the request of one option or several, for the parts of viewsheds that take one.
 Request request_of(const SiteSurvey& survey, std::span<const std::size_t> options);
 

@@ -51,7 +51,7 @@ class LevelSurvey final : public GroupSurvey {
     if (reach.empty()) return exactly({});
     const RasterGrid::Cell first = cell_within(grid, {reach.xmin, reach.ymax});
     const RasterGrid::Cell last = cell_within(grid, {reach.xmax, reach.ymin});
-    Request request = request_about(site);
+    Request request = request_of_levels(survey_, {&site, 1});
     request.grid = grid.part(first, last.column - first.column + 1, last.row - first.row + 1);
     ComputeOptions options;
     options.memory_bytes = survey_.memory_bytes, options.whole_surface = false;
@@ -68,24 +68,6 @@ class LevelSurvey final : public GroupSurvey {
       }
     }
     return exactly(blocks);
-  }
-
-  Request request_about(const SitePosition& site) const {
-    Request request;
-    request.observers = {{site.name, site.position, site.elevation(), true}};
-    request.observers.resize(std::max<std::size_t>(site.sectors.size(), 1), request.observers.front());
-    for (std::size_t i = 0; i < site.sectors.size(); ++i) request.observers[i].antenna = site.sectors[i].antenna;
-    request.target_height = survey_.targets.height;
-    request.targets_on_surface = survey_.targets.on_surface;
-    request.radius = survey_.radius;
-    request.earth = survey_.earth;
-    request.themes = survey_.themes;
-    request.nodata = survey_.nodata;
-    request.engine = survey_.engine;
-    request.mode = Mode::kLevel;
-    request.radio = level_.radio;
-    request.budget = level_.budget;
-    return request;
   }
 
   /// The cell at a place on the grid or on its rim.
@@ -146,6 +128,29 @@ class LevelSurvey final : public GroupSurvey {
 };
 
 }  // namespace
+
+Request request_of_levels(const SiteSurvey& survey, std::span<const SitePosition> sites) {
+  Request request;
+  for (const SitePosition& site : sites) {
+    const Observer mast{site.name, site.position, site.elevation(), true};
+    if (site.sectors.empty()) request.observers.push_back(mast);
+    for (const SiteSector& sector : site.sectors) {
+      request.observers.push_back(mast);
+      request.observers.back().name = sector.name, request.observers.back().antenna = sector.antenna;
+    }
+  }
+  request.target_height = survey.targets.height;
+  request.targets_on_surface = survey.targets.on_surface;
+  request.radius = survey.radius;
+  request.earth = survey.earth;
+  request.themes = survey.themes;
+  request.nodata = survey.nodata;
+  request.engine = survey.engine;
+  request.mode = Mode::kLevel;
+  request.radio = survey.level->radio;
+  request.budget = survey.level->budget;
+  return request;
+}
 
 std::unique_ptr<GroupSurvey> survey_levels(const Store& store, const SiteSurvey& survey) {
   return std::make_unique<LevelSurvey>(store, survey);

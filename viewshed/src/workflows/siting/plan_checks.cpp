@@ -79,7 +79,8 @@ void require_memory(const Store& store, const SitePlanRequest& request, const Si
   const RasterGrid grid = inputs.targets.grid
                               ? *inputs.targets.grid
                               : grid_of_reach(store, inputs.positions, request.radius, request.cell_size);
-  const std::uint64_t needed = bytes_of_site_maps(store, grid) + bytes_of_coverage(survey_of_all(request, inputs));
+  const std::uint64_t needed =
+      bytes_of_site_maps(store, request, grid) + bytes_of_coverage(survey_of_all(request, inputs));
   if (needed <= request.memory_bytes) return;
   throw InputError(
       fmt::format("maps of {} cells, and what {} may serve of them, take some {:.2g} GB, more than the {:.2g} GB of "

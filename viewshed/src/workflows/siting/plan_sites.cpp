@@ -162,10 +162,9 @@ void SitePlanner::tell_coverage(const SiteCoverage& coverage) {
   plan_.shares = demand_shares(request, inputs, joint);
   if (request.demand.premises) tell_premises(joint);
   if (tells_points(request)) plan_.points = point_results(store_, request, inputs, plan_.choice, joint, progress_);
-  plan_.rasters = site_rasters(
-      store_, request, inputs, plan_.choice,
-      inputs.targets.grid ? joint : joint_coverage_on_cells(store_, request, inputs, coverage, plan_.choice, progress_),
-      progress_);
+  tell_rasters(inputs.targets.grid
+                   ? joint
+                   : joint_coverage_on_cells(store_, request, inputs, coverage, plan_.choice, progress_));
   for (std::size_t i = 0; i < inputs.options.size(); ++i)
     plan_.surveys.push_back({summary(coverage.first_bounds(i)), summary(coverage.bounds(i)), coverage.bounds(i).exact,
                              coverage.stage(i), coverage.stage_name(coverage.stage(i))});
@@ -175,6 +174,14 @@ void SitePlanner::tell_coverage(const SiteCoverage& coverage) {
                             static_cast<std::size_t>(std::count_if(plan_.surveys.begin(), plan_.surveys.end(), last))});
   }
   plan_.statistics = coverage.statistics();
+}
+
+void SitePlanner::tell_rasters(const JointCoverage& cells) {
+  const SitePlanRequest& request = plan_.request;
+  if (request.by_level())
+    plan_.levels =
+        std::make_shared<const Result>(site_levels(store_, request, plan_.inputs, plan_.choice, cells, progress_));
+  plan_.rasters = site_rasters(store_, request, plan_.inputs, plan_.choice, cells, plan_.levels.get(), progress_);
 }
 
 void SitePlanner::tell_premises(const JointCoverage& joint) {

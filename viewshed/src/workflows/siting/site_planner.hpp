@@ -47,6 +47,7 @@ class SitePlanner {
   Weight wanted() const;
   std::vector<double> grounds() const;
   void tell_coverage(const SiteCoverage& coverage);
+  void tell_rasters(const JointCoverage& cells);
   void tell_premises(const JointCoverage& joint);
   CoverageSummary summary(const CoverageBounds& bounds) const;
   double undecided_heights() const;

@@ -58,9 +58,11 @@ Document radius_document(const RadiusRule& rule) {
   return {{"source", rule.source}, {"radii", radii}};
 }
 
-std::string radius_text(const RadiusRule& rule) {
-  if (rule.fixed) return fmt::format("The study area extends to {:g} km from every turbine.", *rule.fixed / 1000);
-  std::string text = "The study area extends to a distance from each turbine that depends on its tip height: ";
+std::string radius_text(const RadiusRule& rule, bool of_proposal) {
+  const char* const turbine = of_proposal ? "proposed turbine" : "turbine";
+  if (rule.fixed) return fmt::format("The study area extends to {:g} km from every {}.", *rule.fixed / 1000, turbine);
+  std::string text =
+      fmt::format("The study area extends to a distance from each {} that depends on its tip height: ", turbine);
   for (const RadiusRule::Step& step : rule.steps) {
     text += std::isfinite(step.tip_up_to_m)
                 ? fmt::format("{:g} km for tips up to {:g} m, ", step.radius_km, step.tip_up_to_m)

@@ -12,7 +12,6 @@
 #include <viewshed/zone_files.hpp>
 
 #include "turbines/count_regions.hpp"
-#include "turbines/value_bands.hpp"
 #include "workflows/zone/sight_summary.hpp"
 #include "workflows/zone/study_radio.hpp"
 #include "workflows/zone/turbine_rows.hpp"
@@ -39,9 +38,10 @@ VectorLayer layer_of_lines(const char* name, const profile::SheetLines& lines, d
 
 std::string style_of_farms(const Zone& zone) {
   const std::vector<std::string> farms = farms_of(zone);
+  const std::vector<Rgba> colours = farm_colours(zone);
   std::vector<FeatureClass> classes;
   for (std::size_t f = 0; f < farms.size(); ++f)
-    classes.push_back({farms[f].c_str(), farms[f].empty() ? "Turbine" : farms[f].c_str(), distinct_colour(f)});
+    classes.push_back({farms[f].c_str(), farms[f].empty() ? "Turbine" : farms[f].c_str(), colours[f]});
   return point_style("farm", classes);
 }
 

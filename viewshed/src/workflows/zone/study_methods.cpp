@@ -239,12 +239,13 @@ std::string routes_in_words(const ZoneStudy& study) {
 }
 
 std::string radius_in_words(const ZoneStudy& study) {
-  if (study.request.turbines.radius) return radius_text(*study.request.turbines.radius);
+  const bool proposal = has_proposal(study.zone.request);
+  if (study.request.turbines.radius) return radius_text(*study.request.turbines.radius, proposal);
   const auto& turbines = study.zone.request.turbines;
   const auto [least, most] = std::minmax_element(turbines.begin(), turbines.end(),
                                                  [](const auto& a, const auto& b) { return a.radius < b.radius; });
-  return fmt::format("The study area extends to {} from every turbine.",
-                     range(least->radius / 1000, most->radius / 1000, "km"));
+  return fmt::format("The study area extends to {} from every {}turbine.",
+                     range(least->radius / 1000, most->radius / 1000, "km"), proposal ? "proposed " : "");
 }
 
 std::string refraction_in_words(const Earth& earth) {

@@ -23,13 +23,6 @@ namespace {
 using profile::SheetKey;
 
 constexpr Rgba kViewpoint{20, 60, 140, 255}, kRadar{90, 40, 150, 255};
-constexpr std::size_t kMostFarmColours = 8;
-
-Rgba farm_colour(std::size_t farm) {
-  constexpr Rgba kColours[kMostFarmColours] = {{170, 20, 20},  {20, 40, 110}, {0, 90, 60}, {110, 50, 0},
-                                               {100, 20, 100}, {0, 80, 110},  {70, 70, 0}, {60, 60, 60}};
-  return kColours[farm];
-}
 
 /// Returns what a map of hubs adds to the key of turbines of which some have no hub that is known.
 std::string unknown_hubs(std::size_t unknown, std::size_t all) {
@@ -39,14 +32,15 @@ std::string unknown_hubs(std::size_t unknown, std::size_t all) {
 
 MapObjects turbine_objects(const Zone& zone, bool of_hubs) {
   std::vector<std::string> farms = farms_of(zone);
-  if (farms.size() > kMostFarmColours) farms = {""};
-  const bool single = farms.size() == 1;
+  const std::vector<Rgba> colours = farm_colours(zone);
+  const bool told_apart = farms.size() > 1 && colours[0] != colours[1];
+  if (farms.size() > 1 && !told_apart) farms = {""};
   MapObjects objects;
   for (std::size_t f = 0; f < farms.size(); ++f) {
-    profile::SheetMarks marks{profile::SheetSymbol::kTurbine, farm_colour(f), {}};
+    profile::SheetMarks marks{profile::SheetSymbol::kTurbine, colours[f], {}};
     std::size_t unknown = 0;
     for (const Turbine& t : zone.request.turbines) {
-      if (!single && t.farm != farms[f]) continue;
+      if (told_apart && t.farm != farms[f]) continue;
       marks.marks.push_back({t.position, fmt::format("{}", t.number)});
       if (!t.hub_height) ++unknown;
     }

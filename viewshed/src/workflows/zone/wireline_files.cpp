@@ -125,6 +125,17 @@ Facts facts_of(const Viewpoint& v, const ViewedSurface& view, const Zone& zone, 
   return facts;
 }
 
+/// Returns the colour of each turbine's farm.
+std::vector<Rgba> turbine_colours(const Zone& zone) {
+  const std::vector<std::string> farms = farms_of(zone);
+  const std::vector<Rgba> of_farms = farm_colours(zone);
+  std::vector<Rgba> colours;
+  for (const Turbine& t : zone.request.turbines)
+    colours.push_back(
+        of_farms[static_cast<std::size_t>(std::find(farms.begin(), farms.end(), t.farm) - farms.begin())]);
+  return colours;
+}
+
 profile::WirelineQuery query_of(const Viewpoint& v, const ViewedSurface& view, const Zone& zone,
                                 const std::vector<TurbineSight>& sights, const WirelineChoice& choice,
                                 const Facts& facts) {
@@ -142,12 +153,13 @@ profile::WirelineQuery query_of(const Viewpoint& v, const ViewedSurface& view, c
                              fact("Ground"), fact("Eye"), fact("Visible"), fact("Nearest turbine")),
                  view.title + "; " + zone.request.earth.convention() + (view.remark.empty() ? "" : ". " + view.remark)};
   double reach = 20000;
+  const std::vector<Rgba> colours = turbine_colours(zone);
   for (std::size_t k = 0; k < sights.size(); ++k) {
     const Turbine& t = zone.request.turbines[k];
     const bool undecided = sights[k].tip == TurbineSight::Verdict::kUndecided;
     query.turbines.push_back({fmt::format("{}{}", t.number, undecided ? "?" : ""), t.position, zone.ground_m[k],
                               t.hub_height, t.tip_height, sights[k].tip != TurbineSight::Verdict::kHidden, t.farm,
-                              choice.blade_deg.value_or(scattered_blade(t.number))});
+                              choice.blade_deg.value_or(scattered_blade(t.number)), colours[k]});
     reach = std::max(reach, sights[k].distance + 5000);
   }
   query.reach_m = std::min(reach, 60000.0);
@@ -287,9 +299,12 @@ profile::MapSheet location_map(const Store& store, const Zone& zone, const Viewp
   const MapBase base = map_base(store, profile::ground_in_location_map(sheet), sheet.scale, basemap, progress);
   sheet.layers = {base.picture};
   sheet.layers.insert(sheet.layers.end(), base.contours.begin(), base.contours.end());
-  profile::SheetMarks turbines{profile::SheetSymbol::kTurbine, {170, 20, 20, 255}, {}};
-  for (const Turbine& t : zone.request.turbines) turbines.marks.push_back({t.position, fmt::format("{}", t.number)});
-  sheet.layers.emplace_back(std::move(turbines));
+  const std::vector<Rgba> colours = turbine_colours(zone);
+  for (std::size_t k = 0; k < colours.size(); ++k) {
+    const Turbine& t = zone.request.turbines[k];
+    sheet.layers.emplace_back(
+        profile::SheetMarks{profile::SheetSymbol::kTurbine, colours[k], {{t.position, fmt::format("{}", t.number)}}});
+  }
   sheet.layers.emplace_back(profile::SheetMarks{
       profile::SheetSymbol::kViewpoint, {20, 60, 140, 255}, {{v.position, fmt::format("{} {}", v.number, v.name)}}});
   return sheet;

@@ -36,7 +36,8 @@ double bearing_behind(const Arc& arc) {
 
 std::string view_text(const std::optional<SightSummary>& view) {
   if (!view) return "no turbine is before a facade";
-  const std::string counts = fmt::format("{} tips, {} hubs of {}", tips_text(*view), hubs_text(*view), view->turbines);
+  const std::string counts =
+      fmt::format("tips: {} of {}, hubs: {}", tips_text(*view), view->turbines, hubs_text(*view));
   if (!view->arc) return counts;
   return fmt::format("{}; {:.1f}° of the horizon, from {:.1f}° to {:.1f}°; up to {:.2f}° high", counts,
                      view->arc->width, view->arc->from, bearing_behind(*view->arc), view->vertical_deg);

@@ -9,7 +9,6 @@
 
 #include <itin/feature_style.hpp>
 #include <itin/table_columns.hpp>
-#include <viewshed/site_maps.hpp>
 #include <viewshed/site_wording.hpp>
 
 namespace itin::viewshed {
@@ -99,21 +98,25 @@ Document points_document(const SitePlan& r) {
   return document;
 }
 
-std::vector<MapDots> dots_of_points(const SitePlan& r) {
+std::vector<MapObjects> objects_of_points(const SitePlan& r) {
   constexpr double kDotsAcross = 200;  // dots along the map's longer side
   const Box box = r.rasters.grid.bounds();
   const double side = std::max(box.width(), box.height()) / kDotsAcross;
-  std::array<MapDots, kPointServices.size()> dots;
+  std::array<std::vector<profile::SheetMark>, kPointServices.size()> dots;
   std::set<std::tuple<std::int64_t, std::int64_t, PointService>> taken;
   for (const PointResult& p : r.points) {
     const Point2 at = p.place.position;
     if (!taken.emplace(std::llround(at.x / side), std::llround(at.y / side), p.service).second) continue;
-    dots[static_cast<std::size_t>(p.service)].places.push_back(at);
+    dots[static_cast<std::size_t>(p.service)].push_back({at, ""});
   }
-  std::vector<MapDots> all;
-  for (std::size_t i = 0; i < dots.size(); ++i)
-    if (!dots[i].places.empty())
-      all.push_back({kPointServices[i].text, kPointServices[i].colour, std::move(dots[i].places)});
+  constexpr auto kDot = profile::SheetSymbol::kDot;
+  std::vector<MapObjects> all;
+  for (std::size_t i = 0; i < dots.size(); ++i) {
+    const FeatureClass& service = kPointServices[i];
+    if (dots[i].empty()) continue;
+    all.push_back({{profile::SheetMarks{kDot, service.colour, std::move(dots[i])}},
+                   {{profile::SheetKey::Sample::kMark, {service.colour}, service.text, kDot}}});
+  }
   return all;
 }
 

@@ -11,6 +11,7 @@
 #include <itin/new_folder.hpp>
 #include <itin/output_file.hpp>
 #include <itin/raster.hpp>
+#include <viewshed/result_raster.hpp>
 #include <viewshed/site_maps.hpp>
 #include <viewshed/site_wording.hpp>
 
@@ -74,20 +75,11 @@ void write_redundancy(const std::string& folder, const SitePlan& plan, RasterDes
   write_styled(folder, "redundancy", plan, plan.rasters.redundancy, description, banded_style(count_bands(sites)));
 }
 
-/// Returns the names of the sites in the order of SiteRasters.
-std::vector<std::string> site_names(const SitePlan& plan) {
-  std::vector<std::string> names;
-  for (const ChosenSite& site : plan.choice.chosen) names.push_back(plan.place_of(site).name);
-  for (std::size_t i = 0; i < plan.inputs.existing(); ++i)
-    names.push_back("existing " + plan.inputs.positions[plan.inputs.options.size() + i].name);
-  return names;
-}
-
 void write_best_server(const std::string& folder, const SitePlan& plan, RasterDescription description) {
   description.nodata = SiteRasters::kOutside;
-  description.band_name = wording_of(plan.request).nearest;
+  description.band_name = plan.levels ? "server of the greatest level; 0 none" : wording_of(plan.request).nearest;
   std::vector<StyleClass> style{{0, kNoneSeen, kTransparent}};
-  for (const std::string& name : site_names(plan)) {
+  for (const std::string& name : plan.rasters.servers) {
     const std::size_t number = style.size();
     description.metadata.emplace_back(fmt::format("site_{}", number), name);
     style.push_back({static_cast<std::int64_t>(number), name, distinct_colour(number - 1)});
@@ -95,11 +87,15 @@ void write_best_server(const std::string& folder, const SitePlan& plan, RasterDe
   write_styled(folder, "best-server", plan, plan.rasters.best_server, description, class_style(style));
 }
 
-void write_rasters(const std::string& folder, const SitePlan& plan, const SitePlanFileOptions& options) {
+void write_rasters(const std::string& folder, const SitePlan& plan, const Store& store,
+                   const SitePlanFileOptions& options, const Progress& progress) {
   const RasterDescription description = description_of(plan, options);
   write_coverage(folder, plan, description);
   write_redundancy(folder, plan, description);
   write_best_server(folder, plan, description);
+  if (plan.levels)
+    write_result_raster(within(folder, "level.tif"), *plan.levels, store.metadata(), {.overwrite = options.overwrite},
+                        progress);
 }
 
 void write_tables(const std::string& folder, const SitePlan& plan, bool overwrite) {
@@ -165,10 +161,17 @@ std::vector<PlanFile> site_plan_files(const std::string& folder, const SitePlanR
              {"redundancy.tif", "how many of them serve a cell"},
              {"best-server.tif", "the nearest site that serves a cell"}};
   }
-  for (const char* raster : {"coverage", "redundancy", "best-server"})
-    files.push_back({fmt::format("{}.qml", raster), fmt::format("style of {}.tif for QGIS", raster)});
-  files.push_back({"coverage.png", "map of coverage.tif"});
-  files.push_back({"redundancy.png", "map of redundancy.tif"});
+  if (request.by_level()) {
+    files.back().what = "the site or sector of the greatest level, of those that serve a cell";
+    files.push_back(
+        {"level.tif", "the greatest level that a site gives a cell, its margin, and which server it is of"});
+  }
+  std::vector<std::string> styled = site_map_names(request);
+  styled.insert(styled.begin() + 2, "best-server");
+  for (const std::string& raster : styled)
+    files.push_back({raster + ".qml", fmt::format("style of {}.tif for QGIS", raster)});
+  for (const std::string& map : site_map_names(request))
+    files.push_back({map + ".png", fmt::format("map of {}.tif", map)});
   if (request.demand.premises) {
     files.push_back(
         {"premises.csv", "a row for each building: which site serves it, where on it and from which height"});
@@ -189,7 +192,7 @@ std::vector<PlanFile> write_site_plan(const std::string& folder, const SitePlan&
   std::vector<PlanFile> files = site_plan_files(folder, plan.request);
   if (!options.overwrite) require_free(files);
   write_maps(folder, plan, store, progress, options.overwrite);
-  write_rasters(folder, plan, options);
+  write_rasters(folder, plan, store, options, progress);
   write_tables(folder, plan, options.overwrite);
   write_layers(folder, plan, options.overwrite);
   write_premises_of_plan(folder, plan, store, progress, options.overwrite);

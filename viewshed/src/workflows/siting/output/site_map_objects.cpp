@@ -1,19 +1,20 @@
-#include "site/site_map_objects.hpp"
+#include "workflows/siting/output/site_map_objects.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include <itin/building_outlines.hpp>
 #include <itin/contour_lines.hpp>
 #include <itin/parallel.hpp>
-#include <viewshed/result_sheet.hpp>
 #include <viewshed/site_links.hpp>
-#include <viewshed/site_maps.hpp>
 #include <viewshed/site_wording.hpp>
 #include <viewshed/turbine_layout.hpp>
 
-namespace itin::cli {
+#include "workflows/siting/output/point_tables.hpp"
+
+namespace itin::viewshed {
 
 namespace {
 
@@ -27,7 +28,7 @@ constexpr Rgba kBuilding{70, 60, 55, 255}, kBackhaul{160, 55, 0, 255}, kExisting
 
 /// Returns building outlines, exact to a tenth of a pixel in a picture 1000 pixels long. Buildings smaller than two
 /// pixels, which would be blots, are left out.
-viewshed::MapObjects building_objects(const Store& store, const viewshed::SitePlan& r) {
+MapObjects building_objects(const Store& store, const SitePlan& r) {
   const Box frame = shown_area(r);
   const double pixel = std::max(frame.width(), frame.height()) / 1000;
   profile::SheetLines lines{{}, kBuilding, 0.2, false};
@@ -36,7 +37,7 @@ viewshed::MapObjects building_objects(const Store& store, const viewshed::SitePl
   return {{std::move(lines)}, {{Sample::kLine, {kBuilding}, "Building outline"}}};
 }
 
-viewshed::MapObjects dashed_lines(std::vector<std::vector<Point2>> outlines, const Rgba& colour, std::string what) {
+MapObjects dashed_lines(std::vector<std::vector<Point2>> outlines, const Rgba& colour, std::string what) {
   profile::SheetLines lines{{}, colour, 0.4, true};
   for (std::vector<Point2>& outline : outlines) lines.lines.push_back({std::move(outline), ""});
   return {{std::move(lines)}, {{Sample::kDashes, {colour}, std::move(what)}}};
@@ -58,11 +59,11 @@ std::vector<std::vector<Point2>> outlines_of(const std::optional<Window>& area) 
 }
 
 /// Returns the outlines of the ground on which no turbine stands because dwellings are near, as fine as maps show them.
-std::vector<std::vector<Point2>> outlines_of_setback(const viewshed::SitePlan& r) {
+std::vector<std::vector<Point2>> outlines_of_setback(const SitePlan& r) {
   constexpr double kAcross = 400;
   if (!r.request.turbines || !r.request.turbines->dwellings) return {};
-  const viewshed::SiteDwellings& given = *r.request.turbines->dwellings;
-  const viewshed::Dwellings dwellings(given.points, given.polygons);
+  const SiteDwellings& given = *r.request.turbines->dwellings;
+  const Dwellings dwellings(given.points, given.polygons);
   const Box area = shown_area(r);
   const RasterGrid grid = RasterGrid::aligned(area, std::max(area.width(), area.height()) / kAcross);
   std::vector<float> metres(grid.cell_count());
@@ -76,19 +77,19 @@ std::vector<std::vector<Point2>> outlines_of_setback(const viewshed::SitePlan& r
   return contour_lines(grid, metres, given.setback);
 }
 
-viewshed::MapObjects setback_objects(const viewshed::SitePlan& r) {
+MapObjects setback_objects(const SitePlan& r) {
   const auto& turbines = r.request.turbines;
   const double setback = turbines && turbines->dwellings ? turbines->dwellings->setback : 0;
   return dashed_lines(outlines_of_setback(r), kSetback, fmt::format("{:g} m from dwellings", setback));
 }
 
-viewshed::MapObjects link_objects(const viewshed::SitePlan& r) {
-  const viewshed::SiteNetwork& network = r.network;
-  const viewshed::LinkRules rules = viewshed::link_rules(r.request);
+MapObjects link_objects(const SitePlan& r) {
+  const SiteNetwork& network = r.network;
+  const LinkRules rules = link_rules(r.request);
   const std::vector<std::size_t> routes = routes_over_links(network, r.routes);
   profile::SheetLines lines{{}, kBackhaul, 0.6, false};
   for (std::size_t i = 0; i < network.links.size() && r.request.has_links(); ++i) {
-    const viewshed::SiteLink& link = network.links[i];
+    const SiteLink& link = network.links[i];
     if (r.request.hub ? routes[i] > 0 : rules.met_by(link.found()))
       lines.lines.push_back({{network.from(link).position, network.to(link).position}, ""});
   }
@@ -98,15 +99,15 @@ viewshed::MapObjects link_objects(const viewshed::SitePlan& r) {
 
 /// Returns marks for the ends of a network that `is_one` accepts.
 template <class IsOne>
-viewshed::MapObjects marks(const viewshed::SiteNetwork& network, SheetSymbol symbol, const Rgba& colour,
-                           const std::string& what, const IsOne& is_one) {
+MapObjects marks_of_sites(const SiteNetwork& network, SheetSymbol symbol, const Rgba& colour, const std::string& what,
+                          const IsOne& is_one) {
   profile::SheetMarks marks{symbol, colour, {}};
   for (std::size_t i = 0; i < network.ends.size(); ++i)
     if (is_one(i)) marks.marks.push_back({network.ends[i].place.position, network.ends[i].place.name});
   return {{std::move(marks)}, {{Sample::kMark, {colour}, what, symbol}}};
 }
 
-bool is_empty(const viewshed::MapObjects& objects) {
+bool has_no_object(const MapObjects& objects) {
   const profile::SheetLayer& layer = objects.layers.front();
   if (const auto* lines = std::get_if<profile::SheetLines>(&layer)) return lines->lines.empty();
   return std::get<profile::SheetMarks>(layer).marks.empty();
@@ -114,10 +115,10 @@ bool is_empty(const viewshed::MapObjects& objects) {
 
 }  // namespace
 
-Box shown_area(const viewshed::SitePlan& r) {
+Box shown_area(const SitePlan& r) {
   Box area = r.rasters.grid.bounds();
   const double about = 0.03 * std::max(area.width(), area.height());
-  for (const viewshed::LinkEnd& end : r.network.ends) {
+  for (const LinkEnd& end : r.network.ends) {
     const Point2 p = end.place.position;
     area.extend(Point2{p.x - about, p.y - about});
     area.extend(Point2{p.x + about, p.y + about});
@@ -125,30 +126,30 @@ Box shown_area(const viewshed::SitePlan& r) {
   return area;
 }
 
-std::vector<viewshed::MapObjects> site_map_objects(const Store& store, const viewshed::SitePlan& r) {
-  using enum viewshed::LinkEnd::Kind;
-  const viewshed::SiteNetwork& network = r.network;
-  const viewshed::SiteWording wording = viewshed::wording_of(r.request);
+std::vector<MapObjects> site_map_objects(const Store& store, const SitePlan& r) {
+  using enum LinkEnd::Kind;
+  const SiteNetwork& network = r.network;
+  const SiteWording wording = wording_of(r.request);
   const std::vector<std::size_t> through = routes_through_ends(network, r.routes);
-  const auto is = [&](std::size_t i, viewshed::LinkEnd::Kind kind) { return network.ends[i].kind == kind; };
-  std::vector<viewshed::MapObjects> objects{
+  const auto is = [&](std::size_t i, LinkEnd::Kind kind) { return network.ends[i].kind == kind; };
+  std::vector<MapObjects> objects{
       building_objects(store, r), dashed_lines(outlines_of(r.request.search_area), kSearchArea, "Search area"),
       dashed_lines(outlines_of(r.request.forbidden), kForbidden, "No " + wording.one + " here"), setback_objects(r),
       link_objects(r)};
-  for (const viewshed::MapDots& dots : viewshed::dots_of_points(r)) objects.push_back(viewshed::dot_objects(dots));
+  for (MapObjects& points : objects_of_points(r)) objects.push_back(std::move(points));
   const auto add = [&](SheetSymbol symbol, const Rgba& colour, const std::string& what, const auto& is_one) {
-    objects.push_back(marks(network, symbol, colour, what, is_one));
+    objects.push_back(marks_of_sites(network, symbol, colour, what, is_one));
   };
   const bool wind = r.request.turbines.has_value();
   add(wind ? SheetSymbol::kTurbine : SheetSymbol::kExistingMast, kExistingSite, "Existing " + wording.one,
       [&](std::size_t i) { return is(i, kExisting); });
-  add(wind ? SheetSymbol::kTurbine : SheetSymbol::kMast, viewshed::kMastColour, "Chosen " + wording.one,
+  add(wind ? SheetSymbol::kTurbine : SheetSymbol::kMast, kMastColour, "Chosen " + wording.one,
       [&](std::size_t i) { return is(i, kChosen) && through[i] == 0; });
-  add(SheetSymbol::kRelay, viewshed::kMastColour, "Chosen site that relays others",
+  add(SheetSymbol::kRelay, kMastColour, "Chosen site that relays others",
       [&](std::size_t i) { return is(i, kChosen) && through[i] > 0; });
   add(SheetSymbol::kHub, kHubMark, "Hub", [&](std::size_t i) { return is(i, kHub); });
-  std::erase_if(objects, is_empty);
+  std::erase_if(objects, has_no_object);
   return objects;
 }
 
-}  // namespace itin::cli
+}  // namespace itin::viewshed
