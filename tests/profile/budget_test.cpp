@@ -79,8 +79,9 @@ struct RainCase {
   Polarisation polarisation;
   double specific, of_0_001, of_0_01, of_0_1, of_1;
 };
-/// What the implementations of P.530-18 by I. Stevanovic (eeveetza/p530) and in crc_covlib give with the same rate.
-/// ITU-Rpy takes the power of 0.8 in C0 of the logarithm, and differs above 10 GHz.
+/// Computed apart, by the formulas that the implementations of P.530-18 by I. Stevanovic (eeveetza/p530) and in
+/// crc_covlib have; these programs were read, not run. ITU-Rpy takes the power of 0.8 in C0 of the logarithm, and
+/// differs above 10 GHz.
 constexpr RainCase kRain[] = {
     {9, 18, 28, Polarisation::kVertical, 2.1762187358, 26.96027645, 13.62112105, 5.16389522, 1.46898732},
     {20, 7.5, 42, Polarisation::kHorizontal, 0.6111083059, 12.54681975, 6.13837843, 2.33632717, 0.69178901},
@@ -93,7 +94,7 @@ RainLoss rain_of(const RainCase& e) {
   return rain_loss({.frequency_ghz = e.ghz, .polarisation = e.polarisation, .length_km = e.km}, e.rate);
 }
 
-TEST(RainLoss, AgreesWithOtherImplementationsOfP530) {
+TEST(RainLoss, AgreesWithTheFormulasOfOtherImplementations) {
   for (const RainCase& e : kRain) {
     const RainLoss rain = rain_of(e);
     EXPECT_NEAR(rain.specific_db_km, e.specific, 1e-8) << e.km;
