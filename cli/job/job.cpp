@@ -243,7 +243,8 @@ class JobVerb final : public Verb {
     PlannedCall call(job, store_, progress);
     const auto tasks = call.divide(progress);
     job.require_same(*tasks);
-    tasks->read_again_by([&](std::size_t task) { return job.answer(task); });
+    Verb& verb = call.verb();
+    if (verb.writes_by_parts()) tasks->read_again_by([&](std::size_t task) { return job.answer(task); });
     CallProgress whole(progress);
     Progress& reading = whole.step(kShareOfReading);
     for (std::size_t task = 0; task < job.count(); ++task) {
@@ -255,7 +256,6 @@ class JobVerb final : public Verb {
       }
       reading.report("reading answers", static_cast<double>(task + 1) / static_cast<double>(job.count()));
     }
-    Verb& verb = call.verb();
     verb.take_answers(*tasks);
     Result result = verb.execute(whole.step(1));
     whole.finish();

@@ -46,6 +46,8 @@ class Verb {
   /// Divides the verb's question into tasks of no more than about so many cells, or sites, in place of execute(). The
   /// tasks refer to the verb. Throws InputError for calls that nobody else can work on.
   virtual std::unique_ptr<viewshed::Tasks> divide(std::uint64_t most_cells, Progress& progress);
+  /// Whether execute() writes nothing that needs all cells of the answer in memory, where it takes it from tasks.
+  virtual bool writes_by_parts() const { return true; }
   /// Makes execute() take its answer from these tasks of divide(), to which all answers have been added.
   virtual void take_answers(viewshed::Tasks& answered);
 

@@ -98,6 +98,7 @@ class ViewshedVerb final : public Verb {
         *opened_, request, compute_options_, most_cells,
         view_.certified() ? viewshed::Certainty::kCertified : viewshed::Certainty::kExact);
   }
+  bool writes_by_parts() const override { return !outputs_.writes_polygons() && sheet_.file().empty(); }
   void take_answers(viewshed::Tasks& answered) override {
     answered_ = &dynamic_cast<viewshed::ViewshedTasks&>(answered);
   }

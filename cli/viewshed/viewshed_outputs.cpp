@@ -89,6 +89,10 @@ void ViewshedOutputs::claim_beside(const std::string& path) {
   policy_.claim(others_.emplace_back(path));
 }
 
+bool ViewshedOutputs::writes_polygons() const {
+  return std::any_of(outputs_.begin(), outputs_.end(), is_polygons);
+}
+
 std::vector<std::string> ViewshedOutputs::given_rasters() const {
   std::vector<std::string> rasters;
   std::copy_if(outputs_.begin(), outputs_.end(), std::back_inserter(rasters),
@@ -112,8 +116,7 @@ void ViewshedOutputs::write_raster(const std::string& path, const viewshed::Resu
 void ViewshedOutputs::write(const Store& store, viewshed::ViewshedWithSurface& computed, const Context& context,
                             Progress& progress) const {
   std::vector<std::uint8_t> no_data;
-  if (!image_.empty() || std::any_of(outputs_.begin(), outputs_.end(), is_polygons))
-    no_data = viewshed::cells_without_ground(store, computed.result, progress);
+  if (!image_.empty() || writes_polygons()) no_data = viewshed::cells_without_ground(store, computed.result, progress);
   std::optional<viewshed::MapImage> map;
   if (!image_.empty()) {
     viewshed::MapOptions options;

@@ -34,6 +34,7 @@ class ViewshedOutputs {
   void claim_beside(const std::string& path);
   /// The rasters of -o.
   std::vector<std::string> given_rasters() const;
+  bool writes_polygons() const;
   /// Whether observers have rasters of their own.
   bool writes_each() const { return !each_.empty(); }
 

@@ -138,6 +138,7 @@ class VisibilityVerb final : public Verb {
     complete_request(progress);
     return std::make_unique<viewshed::IndexTasks>(*opened_, request_, most_cells, progress);
   }
+  bool writes_by_parts() const override { return sheet_.file().empty(); }
   void take_answers(viewshed::Tasks& answered) override { answered_ = &dynamic_cast<viewshed::IndexTasks&>(answered); }
 
   Result execute(Progress& progress) override {

@@ -5,7 +5,7 @@
     tests/fuzz/job_kills.py PROGRAM --dask [--kills 200] [--seed N]      # two workers of Dask, and its scheduler at times
 
 The job is a visibility index of the demo's terrain in many tasks. Runners are killed by SIGKILL at random moments. In the
-end every task has one answer, nothing that was begun is left, and no process is.
+end every task has one answer, and no process is left. Jobs follow each other until there were so many kills.
 """
 
 import contextlib
@@ -35,8 +35,11 @@ def descendants_of(pid):
 class Runners:
     """Two runners of the program, each started again when it was killed."""
 
-    def __init__(self, program, job):
-        self.command = [program, "job", "run", job, "--threads", "1", "--quiet", "--patience", PATIENCE]
+    def __init__(self, program):
+        self.program = program
+
+    def begin(self, job):
+        self.command = [self.program, "job", "run", job, "--threads", "1", "--quiet", "--patience", PATIENCE]
         self.runners = [self.start(), self.start()]
 
     def start(self):
@@ -58,18 +61,24 @@ class Runners:
         if any(runner.wait() != 0 for runner in self.runners):
             sys.exit("a runner ended with another status than 0")
 
+    def close(self):
+        """Nothing lives on between jobs."""
+
 
 class DaskRunners:
     """Two workers of Dask, whose nannies start them again, and a scheduler and a client that are started again here."""
 
-    def __init__(self, program, job):
-        self.program, self.job = program, job
+    def __init__(self, program):
+        self.program = program
         self.port = str(random.randrange(20000, 30000))
         self.address = f"tcp://127.0.0.1:{self.port}"
         self.scheduler = self.start_scheduler()
         self.workers = self.start_workers()
-        self.client = self.start_client()
         self.restarts = 0
+
+    def begin(self, job):
+        self.job = job
+        self.client = self.start_client()
 
     def start_scheduler(self):
         command = ["dask", "scheduler", "--host", "127.0.0.1", "--port", self.port, "--no-dashboard"]
@@ -113,6 +122,8 @@ class DaskRunners:
             time.sleep(0.5)
             if time.time() > last:
                 sys.exit("itin-dask does not come to an end")
+
+    def close(self):
         if self.restarts > 0:
             print(f"the workers ended with their scheduler, and were started again, {self.restarts} times")
         for process in (self.workers, self.scheduler):
@@ -126,6 +137,19 @@ def is_program(pid):
     return False
 
 
+def killed_in_round(options, runners, job, kills, chance):
+    """Plans, answers and merges a job, and kills its runners up to so many times. Returns how many times, and what is done."""
+    plan(options, job)
+    runners.begin(job)
+    killed = 0
+    while killed < kills and call(options.program, "job", "status", job, "--open"):
+        time.sleep(chance.uniform(0, 2 * options.every))
+        killed += runners.kill_one(chance)
+    runners.finish()
+    done = merge(options, job)
+    return killed, f"{done}; {len(os.listdir(job + '/tmp'))} files in tmp"
+
+
 def main():
     options = trial_parser(__doc__, kills=200, every=0.7, targets="4096", tasks="200").parse_args()
     chance = random.Random(options.seed)
@@ -133,21 +157,19 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         os.chdir(folder)
         answer_alone(options)
-        plan(options, "job")
-        runners = (DaskRunners if options.dask else Runners)(options.program, "job")
-        kills, begun = 0, time.time()
-        while kills < options.kills and call(options.program, "job", "status", "job", "--open"):
-            time.sleep(chance.uniform(0, 2 * options.every))
-            kills += runners.kill_one(chance)
+        runners = (DaskRunners if options.dask else Runners)(options.program)
+        kills, jobs, begun = 0, 0, time.time()
+        while kills < options.kills:
+            jobs += 1
+            killed, done = killed_in_round(options, runners, f"job-{jobs}", options.kills - kills, chance)
+            kills += killed
+            print(f"{done}: {killed} kills, same bytes", flush=True)
         seconds = time.time() - begun
-        runners.finish()
+        runners.close()
         time.sleep(1)
-        orphans = [pid for pid in descendants_of(os.getpid()) if is_program(pid)]
-        done = merge(options, "job")
-        if orphans:
+        if orphans := [pid for pid in descendants_of(os.getpid()) if is_program(pid)]:
             sys.exit(f"processes are left: {orphans}")
-        begun_files = sorted(os.listdir("job/tmp"))
-        print(f"{kills} kills in {seconds:.0f} s; {done}; {len(begun_files)} files in tmp; same bytes")
+        print(f"{kills} kills in {seconds:.0f} s, in {jobs} jobs; no process is left, and all bytes are the same")
 
 
 if __name__ == "__main__":

@@ -2,6 +2,8 @@
 #include "turbines/zone_parts.hpp"
 
 #include <cmath>
+#include <filesystem>
+#include <map>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -12,7 +14,9 @@
 #include <viewshed/tasks.hpp>
 #include <viewshed/turbines.hpp>
 #include <viewshed/viewshed.hpp>
+#include <viewshed/zone_files.hpp>
 
+#include "support/file_bytes.hpp"
 #include "support/houses.hpp"
 #include "support/raster_file.hpp"
 #include "support/same_zone.hpp"
@@ -101,7 +105,7 @@ class ZoneParts : public testing::Test {
     for (const double share : {0.6, 0.4}) expect_same(survey_in_parts(whole, share), whole);
     expect_same(survey_in_tasks(20000), whole);
     expect_same(survey_in_tasks(1), whole);
-    expect_quantities_read_again(whole, 20000);
+    expect_parts_read_again(whole, 20000);
   }
 
   /// In tasks, the last one first, all of them by other objects than the one that puts them together.
@@ -117,8 +121,21 @@ class ZoneParts : public testing::Test {
     return tasks.take();
   }
 
-  /// Quantities that are read again from the answers are those that a zone holds.
-  void expect_quantities_read_again(const Zone& zone, std::uint64_t most_cells) {
+  /// All files that are written of a zone, less its pictures.
+  std::map<std::string, std::string> files_of(const Zone& zone) {
+    const std::string folder = directory_.file("files");
+    std::filesystem::remove_all(folder);
+    std::filesystem::create_directory(folder);
+    write_zone_rasters(folder, zone, {});
+    std::map<std::string, std::string> files{
+        {"areas", area_table(zone)}, {"totals", area_totals(zone)}, {"farms", combination_table(zone)}};
+    for (const auto& entry : std::filesystem::directory_iterator(folder))
+      files[entry.path().filename().string()] = test::file_bytes(entry.path().string());
+    return files;
+  }
+
+  /// What is read again from the answers is what a zone holds, and so is what is written of it.
+  void expect_parts_read_again(const Zone& zone, std::uint64_t most_cells) {
     const Store store(path());
     ZoneTasks tasks(store, request_, most_cells, progress_);
     std::vector<std::string> answers;
@@ -126,19 +143,16 @@ class ZoneParts : public testing::Test {
     tasks.read_again_by([&](std::size_t task) { return answers.at(task); });
     for (std::size_t i = answers.size(); i-- > 0;) tasks.add(i, answers[i]);
     const Zone merged = tasks.take();
-    ASSERT_TRUE(merged.quantities);
+    ASSERT_TRUE(merged.parts);
     EXPECT_EQ(merged.bare.tip_count, zone.bare.tip_count);
-    EXPECT_EQ(merged.bare.turbines, zone.bare.turbines);
-    for (const ZoneQuantity quantity :
-         {&Visibility::visible_height_m, &Visibility::vertical_angle_deg, &Visibility::vertical_angle_sum_deg,
-          &Visibility::horizontal_angle_deg, &Visibility::horizontal_from_deg, &Visibility::horizontal_occupied_deg,
-          &Visibility::share, &Visibility::nearest_m}) {
-      EXPECT_TRUE((merged.bare.*quantity).empty());
-      test::expect_same(merged.quantities->values(quantity, false), zone.bare.*quantity);
-      if (zone.screened) test::expect_same(merged.quantities->values(quantity, true), (*zone.screened).*quantity);
-    }
+    EXPECT_TRUE(merged.bare.turbines.empty());
+    EXPECT_TRUE(merged.bare.visible_height_m.empty());
+    const std::map<std::string, std::string> expected = files_of(zone), found = files_of(merged);
+    EXPECT_GT(expected.size(), 20U);
+    ASSERT_EQ(found.size(), expected.size());
+    for (const auto& [name, bytes] : expected) EXPECT_TRUE(found.at(name) == bytes) << name;
     answers.back().pop_back();
-    EXPECT_THROW(std::ignore = merged.quantities->values(&Visibility::share, false), NotThoseValues);
+    EXPECT_THROW(files_of(merged), NotThoseValues);
   }
 
   /// North of the lake, which lies between it and some of the cells.

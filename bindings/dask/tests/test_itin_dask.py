@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import filecmp
+import json
 import os
 import re
 import shutil
@@ -55,21 +56,55 @@ def test_the_commands_of_a_page_write_what_the_call_by_itself_writes(folder: Pat
     assert filecmp.cmp(folder / "alone.tif", folder / plan[2], shallow=False)
 
 
+def on_two_workers(job: str) -> str:
+    """Returns commands that answer a job of twelve tasks on two workers."""
+    return (
+        f"dask scheduler --no-dashboard --port {PORT} >/dev/null 2>&1 &\n"
+        f"dask worker tcp://127.0.0.1:{PORT} --nworkers 2 --nthreads 1 --no-dashboard >/dev/null 2>&1 &\n"
+        f"itin-dask {job} --scheduler tcp://127.0.0.1:{PORT} --quiet"
+    )
+
+
+def planned(job: str) -> str:
+    return (
+        f"itin job plan {job} --tasks 12 visibility country.itin --bbox 308000,180000,314000,186000 --cell 100 "
+        f"--radius 5000 -o {job}.tif\n"
+    )
+
+
 def test_a_store_that_changes_ends_the_run(folder: Path) -> None:
     done = run(
         folder,
-        "itin job plan changed --tasks 12 visibility country.itin --bbox 308000,180000,314000,186000 --cell 100 "
-        "--radius 5000 -o changed.tif\n"
-        "cp country.itin kept.itin\n"
+        planned("changed") + "cp country.itin kept.itin\n"
         "rm country.itin; itin import country.itin scripts/demo-data/cardiff.tif --levels 4,16 --quiet >/dev/null\n"
-        f"dask scheduler --no-dashboard --port {PORT} >/dev/null 2>&1 &\n"
-        f"dask worker tcp://127.0.0.1:{PORT} --nworkers 2 --nthreads 1 --no-dashboard >/dev/null 2>&1 &\n"
-        f"status=0; itin-dask changed --scheduler tcp://127.0.0.1:{PORT} --quiet || status=$?\n"
-        "mv kept.itin country.itin; exit $status",
+        + on_two_workers("changed")
+        + " || status=$?\nmv kept.itin country.itin; exit ${status:-0}",
     )
     assert done.returncode == 4, done.stderr
     assert re.search(r"error: .*country\.itin: is not the store that .* was planned for", done.stderr)
     assert not list((folder / "changed/done").rglob("*/*/*"))
+
+
+def test_a_worker_of_another_version_ends_the_run_at_once(folder: Path) -> None:
+    change = "sed -i 's/\"itin\": \"[^\"]*\"/\"itin\": \"9.9\"/' other/job.json\n"
+    done = run(folder, planned("other") + change + on_two_workers("other"))
+    assert done.returncode == 5, done.stderr
+    assert re.fullmatch(
+        r"itin: error: .*/other: was planned by itin 9\.9, and this is itin [0-9.]+; run the same version\n", done.stderr
+    )
+    assert not list((folder / "other/done").rglob("*/*/*"))
+
+
+def test_a_task_that_always_fails_is_named_and_the_others_are_answered(folder: Path) -> None:
+    fail = (
+        "name=$(sed -n 's/.*\"n\":2,\"id\":\"\\([^\"]*\\)\".*/\\1/p' bad/tasks.jsonl)\n"
+        "for k in 1 2 3; do printf 'this is bad' >bad/failed/$name.$k; done\n"
+    )
+    done = run(folder, planned("bad") + fail + on_two_workers("bad"))
+    assert done.returncode == 1
+    assert "itin-dask: error: bad: 1 task is left, the first is task 2: this is bad; itin job run --again bad" in done.stderr
+    status = json.loads(run(folder, "itin job status bad --json").stdout)
+    assert status["open"] == [] and status["done"] == status["tasks"] - 1
 
 
 def test_a_scheduler_that_is_not_there_is_named(folder: Path) -> None:

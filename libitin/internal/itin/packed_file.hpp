@@ -24,7 +24,8 @@ enum class Placed {
   kDiffering  ///< another file has the name, with other bytes
 };
 /// Gives a file its last name in the same file system, whatever other machines are doing, and removes its first name;
-/// where the bytes differ, that stays. Throws FileError.
+/// where the bytes differ, that stays. Throws FileError, also where the folder of the last name cannot be brought to
+/// disk; a file system that knows no such thing is let pass.
 Placed place_for_good(const std::string& path, const std::string& last_name);
 
 }  // namespace itin

@@ -1,3 +1,4 @@
+#include <cerrno>
 #include <cstdio>
 #include <fcntl.h>
 #include <filesystem>
@@ -48,6 +49,14 @@ std::string read_all(const std::string& path) {
   return bytes;
 }
 
+/// Throws FileError where a folder cannot be brought to disk. Some file systems, as shares of other systems, have no way
+/// to ask for that: there a name may be lost with the power, as long as the system has not written it by itself.
+void require_on_disk(const std::string& folder) {
+  const int failed = sync_folder(folder);
+  if (failed != 0 && failed != EINVAL && failed != ENOTSUP && failed != ENOSYS)
+    throw FileError(folder, "cannot be brought to disk: " + std::generic_category().message(failed));
+}
+
 }  // namespace
 
 std::uint64_t content_hash(std::string_view bytes) {
@@ -90,7 +99,7 @@ Placed place_for_good(const std::string& path, const std::string& last_name) {
   if (failed && !fs::exists(last_name)) throw FileError(last_name, "cannot be written: " + failed.message());
   const bool placed = !failed;
   if (!placed && read_all(path) != read_all(last_name)) return Placed::kDiffering;
-  sync_folder_of(last_name);
+  require_on_disk(fs::path(last_name).parent_path().string());
   fs::remove(path, failed);
   return placed ? Placed::kPlaced : Placed::kSame;
 }

@@ -16,12 +16,17 @@
 
 namespace itin {
 
+/// Says where the raster's cells lie.
+inline void place_on(const RasterGrid& grid, GDALDataset& raster) {
+  std::array<double, 6> affine{grid.north_west().x, grid.cell_width(), 0, grid.north_west().y, 0, -grid.cell_height()};
+  raster.SetGeoTransform(affine.data());
+}
+
 /// Makes a raster without bands, at the grid's place.
 inline GDALDatasetUniquePtr memory_raster(const RasterGrid& grid) {
   GDALDatasetUniquePtr raster(written_driver("MEM")->Create("", static_cast<int>(grid.columns()),
                                                             static_cast<int>(grid.rows()), 0, GDT_Unknown, nullptr));
-  std::array<double, 6> affine{grid.north_west().x, grid.cell_width(), 0, grid.north_west().y, 0, -grid.cell_height()};
-  raster->SetGeoTransform(affine.data());
+  place_on(grid, *raster);
   return raster;
 }
 

@@ -80,6 +80,8 @@ class Plan {
 /// compute_with_surface() on Plan::request_of(), or of compute_certified().
 Result decide(const Store& store, const Plan& plan, std::size_t segment, Progress& progress);
 
+class SegmentMerge;
+
 /// Puts the results of segments together, which may come in any order. The plan must outlive it.
 class Merge {
  public:
@@ -95,8 +97,7 @@ class Merge {
   Result take();
 
  private:
-  class Rasters;
-  std::unique_ptr<Rasters> rasters_;
+  std::unique_ptr<SegmentMerge> merge_;
 };
 
 /// Writes a segment's result. Equal results give equal bytes, except for statistics. Throws FileError; an existing file

@@ -10,6 +10,8 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -149,6 +151,8 @@ struct Levels {
 using ModeValues = std::variant<std::monostate, Counts, ObserverSets, Angles, NearestObservers, Blockers, LeastHeights,
                                 Probabilities, Losses, Levels>;
 
+class ResultParts;
+
 struct Result {
   Request request;  ///< as understood
   RasterGrid grid;
@@ -164,6 +168,8 @@ struct Result {
   bool crosses_voids = false;            ///< some sight line may have passed over ground without data
   std::vector<std::string> warnings;     ///< one line each
   Statistics statistics;
+  /// Not null: `visible` and `values` are empty, and are had from here part by part.
+  std::shared_ptr<const ResultParts> parts;
 
   /// Tells whether ground without data may leave cells or their values open.
   bool leaves_open() const { return crosses_voids && request.nodata == NoData::kUnknown; }
@@ -176,6 +182,18 @@ struct Result {
   Values& get() {
     return std::get<Values>(values);
   }
+};
+
+/// The cells of a result that does not hold them in memory, since they are many.
+class ResultParts {
+ public:
+  /// Takes a part: a result of the same request on some of the cells, of which the first is here in the whole grid.
+  using Take = std::function<void(const Result& part, RasterGrid::Cell north_west)>;
+
+  virtual ~ResultParts() = default;
+  /// Calls take() for each part. Cells that belong to none are outside. Throws FileError where parts can no longer be
+  /// read.
+  virtual void for_each(const Take& take) const = 0;
 };
 
 /// How much of what observers look at has no ground: no data, and so neither seen nor hidden.

@@ -18,6 +18,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -116,15 +117,6 @@ struct Visibility {
 /// One of the grids of floats of a Visibility.
 using ZoneQuantity = std::vector<float> Visibility::*;
 
-/// The quantities of a zone that does not hold them in memory, since they are large.
-class ZoneQuantities {
- public:
-  virtual ~ZoneQuantities() = default;
-  /// Returns the values of a quantity, over the bare ground or over what screens. Throws FileError where they can no
-  /// longer be read.
-  virtual std::vector<float> values(ZoneQuantity quantity, bool screened) const = 0;
-};
-
 /// Returns where Visibility::turbines keeps turbine `number` (from 1).
 constexpr RasterBit turbine_bit(std::size_t number) {
   return raster_bit(number - 1);
@@ -162,6 +154,8 @@ struct RadarView {
   bool leaves_open() const { return !undecided_height_m.empty(); }
 };
 
+class ZoneParts;
+
 struct Zone {
   ZoneRequest request;           ///< without the misplaced turbines
   std::vector<double> ground_m;  ///< under each turbine of the request
@@ -174,8 +168,9 @@ struct Zone {
   std::optional<Visibility> screened;  ///< with the themes' features standing on the ground, where asked for
   std::optional<Seasons> seasons;      ///< where woods are not solid
   std::optional<RadarView> radar;
-  /// Not null: the grids of floats of `bare` and `screened` are empty, and are had from here one at a time.
-  std::shared_ptr<const ZoneQuantities> quantities;
+  /// Not null: the grids of floats and of sets of turbines of `bare` and `screened` are empty, and are had from here
+  /// part by part.
+  std::shared_ptr<const ZoneParts> parts;
   std::vector<std::string> warnings;
   Statistics statistics;  ///< counts pairs of eye and turbine as lines
 
@@ -183,6 +178,19 @@ struct Zone {
   bool leaves_open() const { return crosses_voids && request.nodata == NoData::kUnknown; }
   /// The area of so many cells, square kilometres.
   double km2(std::uint64_t cells) const { return static_cast<double>(cells) * grid.cell_area() / 1e6; }
+};
+
+/// The cells of a zone that does not hold all that is told of them in memory, since that is much.
+class ZoneParts {
+ public:
+  /// Takes a part: the zone of some of the cells, of which the first is here in the whole grid. `bare` and `screened`
+  /// are complete, with as many words as the whole; nothing else need be.
+  using Take = std::function<void(const Zone& part, RasterGrid::Cell north_west)>;
+
+  virtual ~ZoneParts() = default;
+  /// Calls take() for each part. Cells that belong to none are outside. Throws FileError where parts can no longer be
+  /// read.
+  virtual void for_each(const Take& take) const = 0;
 };
 
 /// Surveys the turbines on given surfaces; `screened` may be null, and must cover what `ground` does. Turbines without

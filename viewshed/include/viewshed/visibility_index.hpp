@@ -17,6 +17,8 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -52,6 +54,8 @@ struct IndexSample {
   std::string without_rays = {};  ///< why there are no rays, where the request leaves the choice; else empty
 };
 
+class IndexParts;
+
 struct VisibilityIndex {
   RasterGrid grid;
   IndexSample sample;
@@ -70,6 +74,20 @@ struct VisibilityIndex {
   double ground = 1;          ///< the share of what lies within the radius that is ground, over all observers
   std::uint64_t triangles = 0;
   RetrievalStatistics retrieval;
+  /// Not null: `share`, `standard_error` and `undecided` are empty, and are had from here part by part.
+  std::shared_ptr<const IndexParts> parts;
+};
+
+/// The cells of an index that does not hold them in memory, since they are many.
+class IndexParts {
+ public:
+  /// Takes the grids of a part of the cells, of which the first is here in the whole grid.
+  using Take = std::function<void(const VisibilityIndex& part, RasterGrid::Cell north_west)>;
+
+  virtual ~IndexParts() = default;
+  /// Calls take() for each part. Cells that belong to none have no observer. Throws FileError where parts can no longer
+  /// be read.
+  virtual void for_each(const Take& take) const = 0;
 };
 
 /// Computes the visibility index. A store and a request always give the same numbers, whatever the number of threads

@@ -26,6 +26,7 @@
 namespace itin::viewshed {
 
 class IndexMerge;
+class SegmentMerge;
 struct IndexLayout;
 
 /// What a task decides, and about what that takes.
@@ -66,18 +67,22 @@ class ViewshedTasks final : public Tasks {
   /// The store must outlive it. Throws InputError for a request that is refused whatever the surface.
   ViewshedTasks(const Store& store, const Request& request, const ComputeOptions& options, std::uint64_t most_cells,
                 Certainty certainty);
+  ~ViewshedTasks() override;
 
   const std::vector<Task>& list() const override { return list_; }
   std::string answer(std::size_t task, Progress& progress) const override;
+  /// The cells are left to Result::parts, but in mode kBlocker, which numbers blockers over all of them.
+  void read_again_by(const AnswerAgain& answers) override;
   void add(std::size_t task, std::string_view answer) override;
   /// Returns the whole result. Precondition: all answers were added.
   Result take();
 
  private:
   const Store& store_;
-  Plan plan_;
+  std::shared_ptr<const Plan> plan_;
   std::vector<Task> list_;
-  std::unique_ptr<Merge> merge_;
+  AnswerAgain answers_;
+  std::unique_ptr<SegmentMerge> merge_;
 };
 
 /// A visibility index: the tasks are rectangles of its cells.
@@ -89,6 +94,8 @@ class IndexTasks final : public Tasks {
 
   const std::vector<Task>& list() const override { return list_; }
   std::string answer(std::size_t task, Progress& progress) const override;
+  /// The cells are left to VisibilityIndex::parts.
+  void read_again_by(const AnswerAgain& answers) override;
   void add(std::size_t task, std::string_view answer) override;
   /// Returns the whole index. Precondition: all answers were added. Throws InputError where there is no ground.
   VisibilityIndex take();
@@ -96,8 +103,9 @@ class IndexTasks final : public Tasks {
  private:
   const Store& store_;
   IndexRequest request_;
-  std::unique_ptr<const IndexLayout> layout_;
+  std::shared_ptr<const IndexLayout> layout_;
   std::vector<Task> list_;
+  AnswerAgain answers_;
   std::unique_ptr<IndexMerge> merge_;
 };
 

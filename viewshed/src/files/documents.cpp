@@ -10,6 +10,7 @@
 #include <itin/store.hpp>
 #include <itin/table_columns.hpp>
 #include <viewshed/documents.hpp>
+#include <viewshed/result_parts.hpp>
 #include <viewshed/site_plan.hpp>
 
 #include "line/infinity.hpp"
@@ -19,15 +20,14 @@ namespace itin::viewshed {
 
 namespace {
 
-Document of_verdicts(const Result& result, const auto& value) {
+Document of_verdicts(const Result& result, const std::optional<CellsWithoutValue>& without, const auto& value) {
   const CellCounts& cells = result.cells;
   Document document{{"visible", value(cells.visible)},
                     {"hidden", value(cells.hidden)},
                     {"undecided", value(cells.undecided)},
                     {"outside", value(cells.outside)}};
   if (result.request.mode == Mode::kFresnel) document["zone_cut"] = value(cells.zone_cut);
-  if (const auto without = cells_without_value(result))
-    document[std::string("without_") + without->value] = value(without->cells);
+  if (without) document[std::string("without_") + without->value] = value(without->cells);
   return document;
 }
 
@@ -74,27 +74,39 @@ double decided_percent(const CellCounts& cells) {
   return all == 0 ? 100 : 100.0 * static_cast<double>(decided) / static_cast<double>(all);
 }
 
-std::optional<CellsWithoutValue> cells_without_value(const Result& result) {
-  const auto without = [&](const char* value, const std::vector<float>& values) {
-    CellsWithoutValue cells{value};
-    for (std::size_t i = 0; i < values.size(); ++i)
-      cells.cells += std::isnan(values[i]) && result.visible[i] != Verdict::kOutside ? 1 : 0;
-    return cells;
-  };
-  if (const auto* of = std::get_if<LeastHeights>(&result.values)) return without("height", of->height_m);
-  if (const auto* of = std::get_if<Probabilities>(&result.values)) return without("probability", of->probability);
-  if (const auto* of = std::get_if<Losses>(&result.values)) return without("loss", of->diffraction_db);
-  if (const auto* of = std::get_if<Levels>(&result.values)) return without("level", of->level_dbm);
+namespace {
+
+/// What a mode calls the value that not every cell in view has, and the values; nothing for modes without such a one.
+std::optional<std::pair<const char*, const std::vector<float>*>> value_that_may_lack(const ModeValues& values) {
+  if (const auto* of = std::get_if<LeastHeights>(&values)) return {{"height", &of->height_m}};
+  if (const auto* of = std::get_if<Probabilities>(&values)) return {{"probability", &of->probability}};
+  if (const auto* of = std::get_if<Losses>(&values)) return {{"loss", &of->diffraction_db}};
+  if (const auto* of = std::get_if<Levels>(&values)) return {{"level", &of->level_dbm}};
   return std::nullopt;
 }
 
+}  // namespace
+
+std::optional<CellsWithoutValue> cells_without_value(const Result& result) {
+  const auto value = value_that_may_lack(result.values);
+  if (!value) return std::nullopt;
+  CellsWithoutValue cells{value->first};
+  for_each_part(result, [&](const Result& part) {
+    const std::vector<float>& values = *value_that_may_lack(part.values)->second;
+    for (std::size_t i = 0; i < values.size(); ++i)
+      cells.cells += std::isnan(values[i]) && part.visible[i] != Verdict::kOutside ? 1 : 0;
+  });
+  return cells;
+}
+
 std::vector<CellsWithMargin> cells_with_margins(const Result& result) {
-  const auto* levels = std::get_if<Levels>(&result.values);
-  if (levels == nullptr || !result.request.budget.sensitivity_dbm) return {};
+  if (!std::holds_alternative<Levels>(result.values) || !result.request.budget.sensitivity_dbm) return {};
   const std::vector<ValueBand> bands = level_bands(result.request);
   std::vector<std::uint64_t> cells(bands.size());
-  for (const float level : levels->level_dbm)
-    if (!std::isnan(level)) ++cells[band_of(bands, level)];
+  for_each_part(result, [&](const Result& part) {
+    for (const float level : part.get<Levels>().level_dbm)
+      if (!std::isnan(level)) ++cells[band_of(bands, level)];
+  });
   const std::vector<double> none{0}, &margins = result.request.margins_db.empty() ? none : result.request.margins_db;
   std::vector<CellsWithMargin> with;
   for (std::size_t i = 0; i < margins.size(); ++i)
@@ -105,16 +117,18 @@ std::vector<CellsWithMargin> cells_with_margins(const Result& result) {
 }
 
 std::vector<CellsOfObserver> cells_of_observers(const Result& result) {
-  const auto* levels = std::get_if<Levels>(&result.values);
   const std::size_t observers = result.request.observers.size();
-  if (levels == nullptr || observers < 2) return {};
+  if (!std::holds_alternative<Levels>(result.values) || observers < 2) return {};
   const std::optional<double>& sensitivity = result.request.budget.sensitivity_dbm;
   const double least = sensitivity.value_or(-kInfinity);
   std::vector<CellsOfObserver> of(observers);
   for (std::size_t i = 0; i < observers; ++i) of[i].observer = i;
-  for (std::size_t cell = 0; cell < levels->observer.size(); ++cell)
-    if (const std::uint32_t number = levels->observer[cell]; number > 0 && levels->level_dbm[cell] >= least)
-      ++of[number - 1].cells;
+  for_each_part(result, [&](const Result& part) {
+    const auto& levels = part.get<Levels>();
+    for (std::size_t cell = 0; cell < levels.observer.size(); ++cell)
+      if (const std::uint32_t number = levels.observer[cell]; number > 0 && levels.level_dbm[cell] >= least)
+        ++of[number - 1].cells;
+  });
   return of;
 }
 
@@ -126,8 +140,10 @@ Document viewshed_document(const StoreMetadata& metadata, const Result& result) 
   document["surface"] = surface_document(metadata, request.detail, request.themes);
   document["refraction"] = earth_document(request.earth);
   document["grid"] = grid_document(result.grid);
-  document["cells"] = of_verdicts(result, [](std::uint64_t cells) { return cells; });
-  document["area_m2"] = of_verdicts(result, [&](std::uint64_t cells) { return static_cast<double>(cells) * area; });
+  const std::optional<CellsWithoutValue> without = cells_without_value(result);
+  document["cells"] = of_verdicts(result, without, [](std::uint64_t cells) { return cells; });
+  document["area_m2"] =
+      of_verdicts(result, without, [&](std::uint64_t cells) { return static_cast<double>(cells) * area; });
   for (const CellsWithMargin& with : cells_with_margins(result))
     document["margins"].push_back(
         {{"margin_db", with.margin_db}, {"cells", with.cells}, {"area_m2", static_cast<double>(with.cells) * area}});

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <itin/raster_in_parts.hpp>
 #include <viewshed/result.hpp>
 #include <viewshed/result_files.hpp>
 #include <viewshed/visibility_index.hpp>
@@ -119,7 +120,27 @@ Metadata metadata_of(const Result& result) {
   return items;
 }
 
-/// Writes a result's values under one description.
+/// Returns one band after the other.
+std::vector<float> together(std::vector<float> first, const std::vector<float>& second) {
+  first.insert(first.end(), second.begin(), second.end());
+  return first;
+}
+
+std::vector<float> bands_of(const VisibilityIndex& index) {
+  return together(together(index.share, index.standard_error), index.undecided);
+}
+
+/// Returns numbers from 1 as a band of floats; 0, which stands for none, has no value.
+std::vector<float> band_of_numbers(const std::vector<std::uint32_t>& numbers) {
+  std::vector<float> band;
+  band.reserve(numbers.size());
+  for (const std::uint32_t number : numbers)
+    band.push_back(number == 0 ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(number));
+  return band;
+}
+
+/// Writes a result's values under one description. Each mode has functions that return the values of a part of the
+/// result, one band after the other.
 class Writer {
  public:
   Writer(const std::string& path, const Result& result, RasterDescription description, const Progress& progress)
@@ -130,37 +151,41 @@ class Writer {
     description_.classes.push_back({code_of(Verdict::kOutside), "outside or no data", kTransparent});
     // The file lists the classes in this order.
     std::ranges::sort(description_.classes, {}, &RasterClass::value);
-    write<std::uint8_t>({band}, code_of(Verdict::kOutside), codes_of(result_.visible));
+    write<std::uint8_t>({band}, code_of(Verdict::kOutside), [](const Result& part) { return codes_of(part.visible); });
   }
   void losses() {
-    const auto& losses = result_.get<Losses>();
-    std::vector<float> values = losses.diffraction_db;
-    values.insert(values.end(), losses.free_space_db.begin(), losses.free_space_db.end());
-    write<float>({"diffraction loss (ITU-R P.526, delta-Bullington), dB", "free-space loss, dB"}, kNaN, values);
+    write<float>({"diffraction loss (ITU-R P.526, delta-Bullington), dB", "free-space loss, dB"}, kNaN,
+                 [](const Result& part) {
+                   const auto& losses = part.get<Losses>();
+                   return together(losses.diffraction_db, losses.free_space_db);
+                 });
   }
   void levels() {
-    const auto& levels = result_.get<Levels>();
+    const Request& request = result_.request;
     std::vector<std::string> bands{"received level, dBm"};
-    std::vector<float> values = levels.level_dbm;
-    if (const std::optional<double>& sensitivity = result_.request.budget.sensitivity_dbm) {
-      bands.emplace_back("margin over the sensitivity, dB");
-      for (const float level : levels.level_dbm) values.push_back(static_cast<float>(level - *sensitivity));
-    }
-    if (!levels.outage_minutes.empty()) {
-      bands.emplace_back("outage by rain, minutes a year; 5.26 and less counts as 5.26");
-      values.insert(values.end(), levels.outage_minutes.begin(), levels.outage_minutes.end());
-    }
-    if (result_.request.observers.size() > 1) {
-      bands.emplace_back("observer that serves best, its number from 1");
-      for (const std::uint32_t number : levels.observer)
-        values.push_back(number == 0 ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(number));
-    }
-    write<float>(bands, kNaN, values);
+    const std::optional<double>& sensitivity = request.budget.sensitivity_dbm;
+    if (sensitivity) bands.emplace_back("margin over the sensitivity, dB");
+    if (tells_outage(request)) bands.emplace_back("outage by rain, minutes a year; 5.26 and less counts as 5.26");
+    if (request.observers.size() > 1) bands.emplace_back("observer that serves best, its number from 1");
+    write<float>(bands, kNaN, [&](const Result& part) {
+      const auto& levels = part.get<Levels>();
+      std::vector<float> values = levels.level_dbm;
+      if (sensitivity)
+        for (const float level : levels.level_dbm) values.push_back(static_cast<float>(level - *sensitivity));
+      values = together(std::move(values), levels.outage_minutes);
+      if (request.observers.size() > 1) values = together(std::move(values), band_of_numbers(levels.observer));
+      return values;
+    });
   }
-  void counts() { write<std::uint16_t>({"observers that see the cell"}, kCountOutside, result_.get<Counts>().count); }
+  void counts() {
+    write<std::uint16_t>(
+        {"observers that see the cell"}, kCountOutside,
+        [](const Result& part) -> const auto& { return part.get<Counts>().count; });
+  }
   void angles() {
-    write<float>({"elevation angle of the sight line, degrees; of several observers the greatest"}, kNaN,
-                 result_.get<Angles>().angle_deg);
+    write<float>(
+        {"elevation angle of the sight line, degrees; of several observers the greatest"}, kNaN,
+        [](const Result& part) -> const auto& { return part.get<Angles>().angle_deg; });
   }
 
   void heights() {
@@ -168,32 +193,34 @@ class Writer {
     const char* unknown = result_.leaves_open() ? ", or ground without data leaves it open" : "";
     write<float>(
         {fmt::format("least height above {} at which a target is seen, metres; no value: at none{}", base, unknown)},
-        kNaN, result_.get<LeastHeights>().height_m);
+        kNaN, [](const Result& part) -> const auto& { return part.get<LeastHeights>().height_m; });
   }
   void probabilities() {
-    std::vector<float> values = result_.get<Probabilities>().probability;
-    values.reserve(2 * values.size());
-    for (const Verdict v : result_.visible)
-      values.push_back(v == Verdict::kOutside ? std::numeric_limits<float>::quiet_NaN()
-                                              : static_cast<float>(code_of(v)));
     const std::string unknown = result_.leaves_open() ? "; no value: ground without data leaves it open" : "";
     const std::string open = result_.leaves_open() ? "; 2: undecided" : "";
     write<float>(
         {"probability of being visible, in 512 simulated surfaces" + unknown, "visible as the heights are" + open},
-        kNaN, values);
+        kNaN, [](const Result& part) {
+          std::vector<float> values = part.get<Probabilities>().probability;
+          values.reserve(2 * values.size());
+          for (const Verdict v : part.visible)
+            values.push_back(v == Verdict::kOutside ? std::numeric_limits<float>::quiet_NaN()
+                                                    : static_cast<float>(code_of(v)));
+          return values;
+        });
   }
   void blockers() {
     const std::string unknown = result_.crosses_voids && result_.request.nodata != NoData::kClear
                                     ? fmt::format(", {}: ground without data comes first", kMissingGround)
                                     : "";
     std::vector<std::string> bands{"theme of what hides the cell, 0: terrain" + unknown};
-    const auto& blockers = result_.get<Blockers>();
-    std::vector<std::uint32_t> values = blockers.theme;
-    if (!blockers.feature.empty()) {
-      bands.emplace_back("its feature, by its number in the theme, from 0");
-      values.insert(values.end(), blockers.feature.begin(), blockers.feature.end());
-    }
-    write<std::uint32_t>(bands, kNoBlocker, values);
+    if (!result_.get<Blockers>().feature.empty()) bands.emplace_back("its feature, by its number in the theme, from 0");
+    write<std::uint32_t>(bands, kNoBlocker, [](const Result& part) {
+      std::vector<std::uint32_t> values = part.get<Blockers>().theme;
+      const std::vector<std::uint32_t>& feature = part.get<Blockers>().feature;
+      values.insert(values.end(), feature.begin(), feature.end());
+      return values;
+    });
   }
 
   void bits() {
@@ -205,27 +232,37 @@ class Writer {
       const std::string& name = observers[i].name;
       band += fmt::format("bit {}: {}", i % 32, name.empty() ? std::to_string(i + 1) : name);
     }
-    write<std::uint32_t>(bands, std::nullopt, result_.get<ObserverSets>().words);
+    write<std::uint32_t>(
+        bands, std::nullopt, [](const Result& part) -> const auto& { return part.get<ObserverSets>().words; });
   }
 
   void nearest() {
-    const auto& nearest = result_.get<NearestObservers>();
-    std::vector<float> values = nearest.distance_m;
-    values.reserve(2 * values.size());
-    for (const std::uint32_t number : nearest.number)
-      values.push_back(number == 0 ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(number));
-    write<float>({"distance of the nearest visible observer, metres", "its number, from 1"}, kNaN, values);
+    write<float>({"distance of the nearest visible observer, metres", "its number, from 1"}, kNaN,
+                 [](const Result& part) {
+                   const auto& nearest = part.get<NearestObservers>();
+                   return together(nearest.distance_m, band_of_numbers(nearest.number));
+                 });
   }
 
  private:
   static constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-  template <class T>
-  void write(const std::vector<std::string>& bands, std::optional<double> nodata, std::span<const T> values) {
+  template <class T, class ValuesOf>
+  void write(const std::vector<std::string>& bands, std::optional<double> nodata, const ValuesOf& values_of) {
     description_.band_name = bands.front();
     description_.further_bands.assign(bands.begin() + 1, bands.end());
     description_.nodata = nodata;
-    write_raster(path_, result_.grid, values, description_, progress_);
+    if (!result_.parts) {
+      const auto& values = values_of(result_);
+      return write_raster(path_, result_.grid, std::span<const T>(values), description_, progress_);
+    }
+    RasterInParts<T> raster(path_, result_.grid, description_);
+    result_.parts->for_each([&](const Result& part, RasterGrid::Cell north_west) {
+      progress_.throw_if_cancelled();
+      const auto& values = values_of(part);
+      raster.write(north_west, part.grid.columns(), part.grid.rows(), values);
+    });
+    raster.finish(progress_);
   }
 
   const std::string& path_;
@@ -272,9 +309,6 @@ void write_geotiff(const std::string& path, const Result& result, const GeotiffO
 
 void write_geotiff(const std::string& path, const VisibilityIndex& index, const IndexRequest& request,
                    const GeotiffOptions& options, const Progress& progress) {
-  std::vector<float> values = index.share;
-  for (const std::vector<float>* const band : {&index.standard_error, &index.undecided})
-    values.insert(values.end(), band->begin(), band->end());
   RasterDescription description;
   description.crs_wkt = options.crs_wkt;
   description.nodata = std::numeric_limits<double>::quiet_NaN();
@@ -290,7 +324,13 @@ void write_geotiff(const std::string& path, const VisibilityIndex& index, const 
                           {"refraction", request.earth.convention()}};
   description.metadata.insert(description.metadata.end(), options.metadata.begin(), options.metadata.end());
   description.overwrite = options.overwrite;
-  write_raster(path, index.grid, values, description, progress);
+  if (!index.parts) return write_raster(path, index.grid, bands_of(index), description, progress);
+  RasterInParts<float> raster(path, index.grid, description);
+  index.parts->for_each([&](const VisibilityIndex& part, RasterGrid::Cell north_west) {
+    progress.throw_if_cancelled();
+    raster.write(north_west, part.grid.columns(), part.grid.rows(), bands_of(part));
+  });
+  raster.finish(progress);
 }
 
 }  // namespace itin::viewshed

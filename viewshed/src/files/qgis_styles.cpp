@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <viewshed/qgis_styles.hpp>
+#include <viewshed/result_parts.hpp>
 
 #include "files/verdict_classes.hpp"
 #include "turbines/value_bands.hpp"
@@ -39,8 +40,10 @@ std::string names_of_set(const std::vector<Observer>& observers, std::uint32_t s
 
 std::string style_of_sets(const Result& result) {
   std::map<std::uint32_t, std::uint64_t> cells;
-  for (const std::uint32_t set : std::span(result.get<ObserverSets>().words).first(result.grid.cell_count()))
-    if (set != 0) ++cells[set];
+  for_each_part(result, [&](const Result& part) {
+    for (const std::uint32_t set : std::span(part.get<ObserverSets>().words).first(part.grid.cell_count()))
+      if (set != 0) ++cells[set];
+  });
   std::vector<std::pair<std::uint32_t, std::uint64_t>> commonest_first(cells.begin(), cells.end());
   std::ranges::stable_sort(commonest_first, std::ranges::greater(), &std::pair<std::uint32_t, std::uint64_t>::second);
   std::vector<StyleClass> sets;

@@ -1,13 +1,14 @@
 // Parts of a visibility index, which may be computed by anyone in any order, and all of them together.
 //
 //   const IndexLayout layout = lay_out_index(store, request, progress);
-//   IndexMerge merge(layout);
+//   IndexMerge merge(layout, IndexMerge::Cells::kKept);
 //   for (const CellRectangle& cells : some_parts_of(layout.grid))
 //     merge.add(index_part(store, request, layout, cells, progress));
 //   const VisibilityIndex index = merge.take();
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include <itin/progress.hpp>
@@ -16,6 +17,7 @@
 #include <viewshed/visibility_index.hpp>
 
 #include "index/index_layout.hpp"
+#include "index/share_sum.hpp"
 #include "line/cell_tiles.hpp"
 
 namespace itin::viewshed {
@@ -58,17 +60,29 @@ struct IndexPart {
 IndexPart index_part(const Store& store, const IndexRequest& request, const IndexLayout& layout,
                      const CellRectangle& cells, Progress& progress);
 
+/// What all cells have together.
+struct IndexSums {
+  std::uint64_t observers = 0;
+  ShareSum share, undecided, variance;
+
+  void add(const IndexShares& shares);
+};
+
 class IndexMerge {
  public:
-  explicit IndexMerge(IndexLayout layout);
+  enum class Cells { kKept, kLeftOut };
+
+  IndexMerge(IndexLayout layout, Cells cells);
 
   void add(const IndexPart& part);
-  /// Returns the whole index. Throws InputError as visibility_index() does where there is no ground.
+  /// Returns the whole index, with its cells where they were kept. Throws InputError as visibility_index() does where
+  /// there is no ground.
   VisibilityIndex take();
 
  private:
   IndexLayout layout_;
-  IndexShares shares_;
+  std::optional<IndexShares> shares_;  ///< nothing: left out
+  IndexSums sums_;
   IndexCounts counts_;
 };
 

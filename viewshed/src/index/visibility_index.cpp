@@ -39,15 +39,30 @@ IndexPart index_part(const Store& store, const IndexRequest& request, const Inde
                                 : index_part_by_targets(store, request, layout, cells, progress);
 }
 
-IndexMerge::IndexMerge(IndexLayout layout) : layout_(std::move(layout)), shares_(layout_.grid.cell_count()) {}
+void IndexSums::add(const IndexShares& shares) {
+  for (std::size_t i = 0; i < shares.share.size(); ++i) {
+    if (std::isnan(shares.share[i])) continue;
+    ++observers;
+    share.add(shares.share[i]);
+    undecided.add(shares.undecided[i]);
+    variance.add(double{shares.standard_error[i]} * shares.standard_error[i]);
+  }
+}
+
+IndexMerge::IndexMerge(IndexLayout layout, Cells cells) : layout_(std::move(layout)) {
+  if (cells == Cells::kKept) shares_.emplace(layout_.grid.cell_count());
+}
 
 void IndexMerge::add(const IndexPart& part) {
   const auto copy = [&](const std::vector<float>& from, std::vector<float>& to) {
     for (std::size_t i = 0; i < from.size(); ++i) to[layout_.grid.index(part.cells.cell(i))] = from[i];
   };
-  copy(part.shares.share, shares_.share);
-  copy(part.shares.standard_error, shares_.standard_error);
-  copy(part.shares.undecided, shares_.undecided);
+  if (shares_) {
+    copy(part.shares.share, shares_->share);
+    copy(part.shares.standard_error, shares_->standard_error);
+    copy(part.shares.undecided, shares_->undecided);
+  }
+  sums_.add(part.shares);
   counts_ += part.counts;
 }
 
@@ -57,23 +72,18 @@ VisibilityIndex IndexMerge::take() {
     throw InputError("no cell's centre lies on ground in the area; give smaller cells", "cell_size");
   VisibilityIndex index;
   index.grid = layout_.grid, index.sample = layout_.sample;
-  index.share = std::move(shares_.share), index.standard_error = std::move(shares_.standard_error);
-  index.undecided = std::move(shares_.undecided);
+  if (shares_) {
+    index.share = std::move(shares_->share), index.standard_error = std::move(shares_->standard_error);
+    index.undecided = std::move(shares_->undecided);
+  }
   index.targets = counts_.targets, index.lines = counts_.lines;
   index.triangles = counts_.triangles, index.retrieval = counts_.retrieval;
-  double variance = 0;
-  for (std::size_t i = 0; i < index.share.size(); ++i) {
-    if (std::isnan(index.share[i])) continue;
-    ++index.observers;
-    index.mean += index.share[i];
-    index.mean_undecided += index.undecided[i];
-    variance += double{index.standard_error[i]} * index.standard_error[i];
-  }
+  index.observers = sums_.observers;
   if (index.observers == 0)
     throw InputError("no target fell on ground: the radius reaches far beyond it; give a smaller one, or more targets",
                      "radius");
   const auto observers = static_cast<double>(index.observers);
-  index.mean /= observers, index.mean_undecided /= observers;
+  index.mean = sums_.share.value() / observers, index.mean_undecided = sums_.undecided.value() / observers;
   if (index.sample.rays > 0) {
     // Observers look in the same directions, and so err together.
     RaySums together;
@@ -84,7 +94,7 @@ VisibilityIndex IndexMerge::take() {
     const double everything = observers * index.sample.rays * layout_.rings * layout_.rings;
     index.ground = together.on_ground() / everything;
   } else {
-    index.mean_error = std::sqrt(variance) / observers;
+    index.mean_error = std::sqrt(sums_.variance.value()) / observers;
     index.ground = static_cast<double>(index.lines) / static_cast<double>(index.targets);
   }
   return index;
@@ -92,7 +102,7 @@ VisibilityIndex IndexMerge::take() {
 
 VisibilityIndex visibility_index(const Store& store, const IndexRequest& request, Progress& progress) {
   const IndexLayout layout = lay_out_index(store, request, progress);
-  IndexMerge merge(layout);
+  IndexMerge merge(layout, IndexMerge::Cells::kKept);
   merge.add(index_part(store, request, layout, all_cells(layout.grid), progress));
   return merge.take();
 }

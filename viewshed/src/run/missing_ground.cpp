@@ -5,6 +5,7 @@
 
 #include <viewshed/area_text.hpp>
 #include <viewshed/missing_ground.hpp>
+#include <viewshed/result_parts.hpp>
 #include <viewshed/surface.hpp>
 
 #include "bounds/pixel_heights.hpp"
@@ -30,7 +31,6 @@ Box area_of(const Store& store, const Result& result) {
 /// the result. Returns the number of these cells.
 template <class Found>
 std::uint64_t for_each_outside(const Result& result, const Box& area, const Found& found) {
-  if (result.cells.outside == 0) return 0;
   return for_each_cell_in_view(
       result.request, result.grid,
       [&](RasterGrid::Cell place) {
@@ -47,17 +47,35 @@ void leave_out_ground(const Tin& coverage, const RasterGrid& grid, std::vector<s
     if (!std::isnan(heights[i])) cells[i] = 0;
 }
 
+/// Marks the cells of a result, or of a part of one, where an observer looks within the area and there is no ground.
+std::vector<std::uint8_t> marked_without_ground(const Store& store, const Result& result, const Box& area,
+                                                Progress& progress) {
+  const RasterGrid& grid = result.grid;
+  std::vector<std::uint8_t> cells(grid.cell_count());
+  for_each_outside(result, area, [&](RasterGrid::Cell place) { cells[grid.index(place)] = 1; });
+  if (bounds_elevations(result.request) && std::find(cells.begin(), cells.end(), 1) != cells.end())
+    leave_out_ground(coverage_of(store, Window::box(grid.bounds()), progress), grid, cells);
+  return cells;
+}
+
 std::uint64_t count_without_ground(const Store& store, const Result& result, Progress& progress) {
-  if (!bounds_elevations(result.request)) {
-    const std::vector<MapView> views = views_of(result.request);
-    const bool one_view_holds_all =
-        std::any_of(views.begin(), views.end(), [&](const MapView& view) { return view.holds(result.grid.bounds()); });
-    return one_view_holds_all && is_bounded(result.request)
-               ? result.cells.outside
-               : for_each_outside(result, area_of(store, result), [](RasterGrid::Cell) {});
-  }
-  const std::vector<std::uint8_t> cells = cells_without_ground(store, result, progress);
-  return static_cast<std::uint64_t>(std::count(cells.begin(), cells.end(), 1));
+  if (result.cells.outside == 0) return 0;
+  const bool any_elevation = !bounds_elevations(result.request);
+  const std::vector<MapView> views = views_of(result.request);
+  const bool one_view_holds_all =
+      std::any_of(views.begin(), views.end(), [&](const MapView& view) { return view.holds(result.grid.bounds()); });
+  if (any_elevation && one_view_holds_all && is_bounded(result.request)) return result.cells.outside;
+  const Box area = area_of(store, result);
+  std::uint64_t count = 0;
+  for_each_part(result, [&](const Result& part) {
+    if (any_elevation) {
+      count += for_each_outside(part, area, [](RasterGrid::Cell) {});
+    } else {
+      const std::vector<std::uint8_t> cells = marked_without_ground(store, part, area, progress);
+      count += static_cast<std::uint64_t>(std::count(cells.begin(), cells.end(), 1));
+    }
+  });
+  return count;
 }
 
 }  // namespace
@@ -92,12 +110,7 @@ std::optional<std::string> MissingGround::warning(const std::string& area) const
 
 std::vector<std::uint8_t> cells_without_ground(const Store& store, const Result& result, Progress& progress) {
   if (result.cells.outside == 0) return {};
-  const RasterGrid& grid = result.grid;
-  std::vector<std::uint8_t> cells(grid.cell_count());
-  for_each_outside(result, area_of(store, result), [&](RasterGrid::Cell place) { cells[grid.index(place)] = 1; });
-  if (bounds_elevations(result.request) && std::find(cells.begin(), cells.end(), 1) != cells.end())
-    leave_out_ground(coverage_of(store, Window::box(grid.bounds()), progress), grid, cells);
-  return cells;
+  return marked_without_ground(store, result, area_of(store, result), progress);
 }
 
 bool PlacesWithoutGround::contain(Point2 place) const {

@@ -62,7 +62,8 @@ class Copies {
   void operator()(const Visibility& from, Visibility& to) const {
     const Copies& copy = *this;
     copy(from.hub_count, to.hub_count), copy(from.tip_count, to.tip_count);
-    copy(from.turbines, to.turbines), copy(from.hubs, to.hubs);
+    if (!to.turbines.empty()) copy(from.turbines, to.turbines);
+    if (!to.hubs.empty()) copy(from.hubs, to.hubs);
     for (const ZoneQuantity quantity : kAnsweredQuantities)
       if (!(to.*quantity).empty()) copy(from.*quantity, to.*quantity);
     undecided(from.tip_count, from.hub_undecided, to.hub_undecided);
@@ -102,23 +103,33 @@ void complete_shares(Visibility& v, std::size_t turbines) {
     if (v.tip_count[i] != kCountOutside) v.share[i] = share_of_turbines(v.tip_count[i], turbines);
 }
 
-/// The quantities as the answers of tasks have them.
-class QuantitiesOfAnswers final : public ZoneQuantities {
+/// Completes what a part's answer leaves out: words of turbines that nobody sees there, and shares.
+void complete_part(const Zone& whole, std::size_t cells, Visibility& v) {
+  v.turbines.resize(whole.words * cells);
+  if (whole.request.foliage) v.hubs.resize(whole.words * cells);
+  v.share.assign(cells, std::numeric_limits<float>::quiet_NaN());
+  complete_shares(v, whole.request.turbines.size());
+}
+
+/// The cells of a zone as the answers of its tasks have them.
+class ZoneOfAnswers final : public ZoneParts {
  public:
   /// All that is in the layout of the whole belongs to the answers; nothing is seen in it yet.
-  QuantitiesOfAnswers(const Zone& layout, std::vector<Task> tasks, AnswerAgain answers)
+  ZoneOfAnswers(const Zone& layout, std::vector<Task> tasks, AnswerAgain answers)
       : layout_(layout), tasks_(std::move(tasks)), answers_(std::move(answers)) {}
 
-  std::vector<float> values(ZoneQuantity quantity, bool screened) const override {
-    std::vector<float> all(layout_.grid.cell_count(), std::numeric_limits<float>::quiet_NaN());
+  void for_each(const Take& take) const override {
     for (std::size_t i = 0; i < tasks_.size(); ++i) {
+      const Task& task = tasks_[i];
       Zone part = zone_of_answer(layout_, answers_(i));
-      Visibility& seen = screened ? part.screened.value() : part.bare;
-      seen.share.assign(seen.tip_count.size(), std::numeric_limits<float>::quiet_NaN());
-      complete_shares(seen, layout_.request.turbines.size());
-      Copies(cells_of(tasks_[i]), layout_.grid)(seen.*quantity, all);
+      part.request = layout_.request;
+      part.grid = layout_.grid.part(task.north_west, task.columns, task.rows);
+      part.words = layout_.words;
+      complete_part(layout_, part.grid.cell_count(), part.bare);
+      if (part.screened) complete_part(layout_, part.grid.cell_count(), *part.screened);
+      complete_screen(part);
+      take(part, task.north_west);
     }
-    return all;
   }
 
  private:
@@ -195,7 +206,7 @@ std::string ZoneTasks::answer(std::size_t task, Progress& progress) const {
 void ZoneTasks::read_again_by(const AnswerAgain& answers) {
   Zone layout = *zone_;
   if (layout.request.foliage) layout.seasons.emplace();
-  zone_->quantities = std::make_shared<QuantitiesOfAnswers>(layout, list_, answers);
+  zone_->parts = std::make_shared<ZoneOfAnswers>(layout, list_, answers);
 }
 
 void ZoneTasks::add(std::size_t task, std::string_view answer) {

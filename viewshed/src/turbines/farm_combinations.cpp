@@ -10,6 +10,8 @@
 #include <itin/table_columns.hpp>
 #include <viewshed/zone_files.hpp>
 
+#include "turbines/zone_cells.hpp"
+
 namespace itin::viewshed {
 
 namespace {
@@ -34,7 +36,7 @@ class FarmSets {
   FarmSet of(const Visibility& visibility, std::size_t cell) const {
     FarmSet farms(words_);
     for (std::size_t w = 0; w < zone_.words; ++w) {
-      const std::uint32_t seen = visibility.turbines[w * zone_.grid.cell_count() + cell];
+      const std::uint32_t seen = visibility.turbines[w * visibility.tip_count.size() + cell];
       for (std::size_t f = 0; seen != 0 && f < names_.size(); ++f)
         if ((seen & masks_[f][w]) != 0) farms[raster_bit(f).grid] |= raster_bit(f).mask;
     }
@@ -57,19 +59,14 @@ class FarmSets {
   std::vector<std::vector<std::uint32_t>> masks_;
 };
 
-bool has_value(const Visibility& visibility, std::size_t cell) {
-  return visibility.tip_count[cell] != kCountOutside;
-}
-
 /// Returns the sets of the whole zone, bare or screened, sorted, the empty set first.
 std::vector<FarmSet> sets_present(const Zone& zone, const FarmSets& sets) {
   std::set<FarmSet> present{FarmSet(bit_grids(sets.names().size()))};
   const auto add = [&](const Visibility& visibility) {
     FarmSet last;  // neighbours mostly see the same farms
-    for (std::size_t cell = 0; cell < visibility.tip_count.size(); ++cell) {
-      if (!has_value(visibility, cell)) continue;
-      if (FarmSet farms = sets.of(visibility, cell); farms != last) present.insert(last = std::move(farms));
-    }
+    for_each_cell_with_value(zone, visibility, [&](const Visibility& seen, std::size_t cell, std::size_t) {
+      if (FarmSet farms = sets.of(seen, cell); farms != last) present.insert(last = std::move(farms));
+    });
   };
   add(zone.bare);
   if (zone.screened) add(*zone.screened);
@@ -120,10 +117,14 @@ std::vector<std::uint32_t> farm_combinations(const Zone& zone, const Visibility&
     return static_cast<std::uint32_t>(std::lower_bound(numbered.begin(), numbered.end(), farms) - numbered.begin());
   };
   std::vector<std::uint32_t> result(zone.grid.cell_count(), kOutsideFarms);
-  const auto columns = static_cast<std::size_t>(zone.grid.columns());
-  parallel_for(static_cast<std::size_t>(zone.grid.rows()), [&](std::size_t row) {
-    for (std::size_t i = row * columns; i < (row + 1) * columns; ++i)
-      if (has_value(visibility, i)) result[i] = code(sets.of(visibility, i));
+  for_each_part(zone, [&](const Zone& part, RasterGrid::Cell at) {
+    const Visibility& seen = of_same_surface(zone, visibility, part);
+    parallel_for(static_cast<std::size_t>(part.grid.rows()), [&](std::size_t i) {
+      const auto row = static_cast<std::int64_t>(i);
+      for (std::int64_t column = 0; column < part.grid.columns(); ++column)
+        if (const std::size_t cell = part.grid.index({column, row}); seen.tip_count[cell] != kCountOutside)
+          result[zone.grid.index({at.column + column, at.row + row})] = code(sets.of(seen, cell));
+    });
   });
   return result;
 }

@@ -4,6 +4,8 @@
 #include <bit>
 #include <cmath>
 
+#include "turbines/zone_cells.hpp"
+
 namespace itin::viewshed {
 
 namespace {
@@ -40,13 +42,13 @@ std::vector<Turbine> turbines_of_study_area(const ZoneRequest& request) {
 
 std::vector<std::uint16_t> proposed_tips(const Zone& zone, const Visibility& visibility) {
   const std::vector<std::uint32_t> own = bits_of_proposal(zone);
-  std::vector<std::uint16_t> tips(visibility.tip_count.size(), kCountOutside);
-  for (std::size_t cell = 0; cell < tips.size(); ++cell) {
-    if (visibility.tip_count[cell] == kCountOutside) continue;
-    tips[cell] = 0;
+  std::vector<std::uint16_t> tips(zone.grid.cell_count(), kCountOutside);
+  for_each_cell_with_value(zone, visibility, [&](const Visibility& seen, std::size_t cell, std::size_t of_zone) {
+    tips[of_zone] = 0;
     for (std::size_t w = 0; w < zone.words; ++w)
-      tips[cell] += static_cast<std::uint16_t>(std::popcount(visibility.turbines[w * tips.size() + cell] & own[w]));
-  }
+      tips[of_zone] +=
+          static_cast<std::uint16_t>(std::popcount(seen.turbines[w * seen.tip_count.size() + cell] & own[w]));
+  });
   return tips;
 }
 

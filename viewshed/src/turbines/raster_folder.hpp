@@ -9,6 +9,7 @@
 
 #include <itin/output_file.hpp>
 #include <itin/raster.hpp>
+#include <itin/raster_in_parts.hpp>
 #include <viewshed/zone_files.hpp>
 
 namespace itin::viewshed {
@@ -30,19 +31,41 @@ class RasterFolder {
   template <class T>
   void write(const std::string& name, const std::string& what, const std::vector<T>& values,
              RasterDescription description, const std::string& style) {
-    description.crs_wkt = options_.crs_wkt;
-    description.overwrite = true;
-    if (description.band_name.empty()) description.band_name = name;
-    description.metadata = options_.metadata;
-    description.metadata.emplace_back("what", what);
+    describe(name, what, description);
     write_raster(path(name + ".tif"), zone_.grid, std::span<const T>(values), description);
-    if (!style.empty()) write_file(path(name + ".qml"), style, true);
-    files_.push_back({name + ".tif", what});
+    add(name, what, style);
+  }
+  /// Writes the values that values_of(part), a vector of T, returns for each part of the zone, one band after the
+  /// other.
+  template <class T, class ValuesOf>
+  void write_parts(const std::string& name, const std::string& what, const ValuesOf& values_of,
+                   RasterDescription description, const std::string& style) {
+    if (!zone_.parts) return write<T>(name, what, values_of(zone_), std::move(description), style);
+    describe(name, what, description);
+    RasterInParts<T> raster(path(name + ".tif"), zone_.grid, description);
+    zone_.parts->for_each([&](const Zone& part, RasterGrid::Cell north_west) {
+      const std::vector<T>& values = values_of(part);
+      raster.write(north_west, part.grid.columns(), part.grid.rows(), values);
+    });
+    raster.finish();
+    add(name, what, style);
   }
   std::string path(const std::string& name) const { return folder_ + "/" + name; }
   std::vector<ZoneFile> files() && { return std::move(files_); }
 
  private:
+  void describe(const std::string& name, const std::string& what, RasterDescription& description) const {
+    description.crs_wkt = options_.crs_wkt;
+    description.overwrite = true;
+    if (description.band_name.empty()) description.band_name = name;
+    description.metadata = options_.metadata;
+    description.metadata.emplace_back("what", what);
+  }
+  void add(const std::string& name, const std::string& what, const std::string& style) {
+    if (!style.empty()) write_file(path(name + ".qml"), style, true);
+    files_.push_back({name + ".tif", what});
+  }
+
   std::string folder_;
   const Zone& zone_;
   const ZoneFileOptions& options_;

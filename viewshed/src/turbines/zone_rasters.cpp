@@ -15,6 +15,7 @@
 #include "turbines/proposal.hpp"
 #include "turbines/raster_folder.hpp"
 #include "turbines/value_bands.hpp"
+#include "turbines/zone_cells.hpp"
 
 namespace itin::viewshed {
 
@@ -145,30 +146,21 @@ void write_bits(const Zone& zone, const View& view, RasterFolder& folder) {
   const auto name = [](std::size_t word) { return fmt::format("turbines {} to {}", 32 * word + 1, 32 * word + 32); };
   description.band_name = name(0);
   for (std::size_t w = 1; w < zone.words; ++w) description.further_bands.push_back(name(w));
-  folder.write(
+  folder.write_parts<std::uint32_t>(
       "turbines" + view.suffix,
       "which turbines have their tip seen: turbine k of the file is bit k - 1, 32 turbines in each band; no nodata "
       "value, 0 where none is seen" +
           view.remark,
-      view.seen.turbines, description, seen_style());
-}
-
-/// Calls use(values) with the values of a quantity over one of the zone's surfaces.
-template <class Use>
-void with_values(const Zone& zone, const Visibility& seen, const Quantity& q, const Use& use) {
-  if (zone.quantities) {
-    use(zone.quantities->values(q.values, &seen != &zone.bare));
-  } else {
-    use(seen.*q.values);
-  }
+      [&](const Zone& part) -> const auto& { return of_same_surface(zone, view.seen, part).turbines; }, description,
+      seen_style());
 }
 
 void write_quantities(const Zone& zone, const View& view, RasterFolder& folder) {
   for (const Quantity& q : quantities())
-    with_values(zone, view.seen, q, [&](const std::vector<float>& values) {
-      folder.write(q.name + view.suffix, fmt::format("{}; NaN: {}{}", q.what, kNoValue, view.remark), values,
-                   with_nodata(kNaN), banded_style(limit_bands(q.limits, q.unit)));
-    });
+    folder.write_parts<float>(
+        q.name + view.suffix, fmt::format("{}; NaN: {}{}", q.what, kNoValue, view.remark),
+        [&](const Zone& part) -> const auto& { return of_same_surface(zone, view.seen, part).*q.values; },
+        with_nodata(kNaN), banded_style(limit_bands(q.limits, q.unit)));
 }
 
 /// Returns bare less screened. Where either has no value the difference has none: 65535 less 65535 must not become 0.
@@ -195,13 +187,12 @@ void write_differences(const Zone& zone, RasterFolder& folder) {
   for (const Quantity& q : quantities()) {
     // The difference of azimuths means nothing, nor does that of distances of which one may be missing.
     if (q.values == &Visibility::horizontal_from_deg || q.values == &Visibility::nearest_m) continue;
-    with_values(zone, bare, q, [&](const std::vector<float>& of_bare) {
-      with_values(zone, screened, q, [&](const std::vector<float>& of_screened) {
-        folder.write(fmt::format("{}-difference", q.name), what(q.what),
-                     difference(of_bare, of_screened, std::numeric_limits<float>::quiet_NaN()), with_nodata(kNaN),
-                     banded_style(limit_bands(q.limits, q.unit)));
-      });
-    });
+    folder.write_parts<float>(
+        fmt::format("{}-difference", q.name), what(q.what),
+        [&](const Zone& part) {
+          return difference(part.bare.*q.values, (*part.screened).*q.values, std::numeric_limits<float>::quiet_NaN());
+        },
+        with_nodata(kNaN), banded_style(limit_bands(q.limits, q.unit)));
   }
 }
 

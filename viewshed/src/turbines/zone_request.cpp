@@ -85,10 +85,10 @@ Visibility nothing_seen(const Zone& zone) {
   v.hub_count.assign(cells, kCountOutside);
   v.tip_count.assign(cells, kCountOutside);
   if (zone.leaves_open()) v.hub_undecided = v.tip_undecided = v.tip_count;
+  if (!zone.request.weights.empty()) v.height_sums_m.assign(zone.request.turbines.size(), 0);
+  if (zone.parts) return v;
   v.turbines.assign(cells * zone.words, 0);
   if (zone.request.foliage) v.hubs = v.turbines;
-  if (!zone.request.weights.empty()) v.height_sums_m.assign(zone.request.turbines.size(), 0);
-  if (zone.quantities) return v;
   for (std::vector<float>* floats :
        {&v.visible_height_m, &v.vertical_angle_deg, &v.vertical_angle_sum_deg, &v.horizontal_angle_deg,
         &v.horizontal_from_deg, &v.horizontal_occupied_deg, &v.share, &v.nearest_m})
@@ -164,9 +164,8 @@ std::uint64_t bytes_of_results(const Zone& zone) {
   const std::uint64_t surfaces = zone.screened ? 2 : 1, counts = zone.leaves_open() ? 8 : 4,
                       open_heights = zone.request.nodata == NoData::kUnknown && zone.radar && zone.radar->crosses_voids,
                       of_radar = zone.radar ? 4 * (1 + open_heights) : 0, sets = zone.request.foliage ? 2 : 1;
-  // Two quantities that are elsewhere are held at a time, and their difference.
-  const std::uint64_t of_quantities = zone.quantities ? 12 : 32 * surfaces;
-  return (of_quantities + surfaces * (counts + 4 * sets * zone.words) + of_radar) * zone.grid.cell_count();
+  const std::uint64_t of_parts = zone.parts ? 0 : surfaces * (32 + 4 * sets * zone.words);
+  return (of_parts + surfaces * counts + of_radar) * zone.grid.cell_count();
 }
 
 std::uint64_t bytes_beside_surfaces(const Zone& zone) {

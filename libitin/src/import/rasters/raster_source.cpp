@@ -19,6 +19,7 @@
 #include <itin/file_ending.hpp>
 #include <itin/raster_values.hpp>
 
+#include "gdal/block_cache_limit.hpp"
 #include "gdal/quiet_gdal.hpp"
 #include "gdal/raster_file.hpp"
 #include "import/rasters/raster_lattice.hpp"
@@ -41,20 +42,6 @@ std::vector<std::string> rasters_in_archive(const std::string& archive) {
   std::sort(found.begin(), found.end());
   return found;
 }
-
-/// Lends GDAL's cache of blocks, which the whole process shares, no more than this source may take.
-class BlockCacheLimit {
- public:
-  explicit BlockCacheLimit(std::uint64_t bytes) : before_(GDALGetCacheMax64()) {
-    GDALSetCacheMax64(std::min(before_, static_cast<GIntBig>(bytes)));
-  }
-  ~BlockCacheLimit() { GDALSetCacheMax64(before_); }
-  BlockCacheLimit(const BlockCacheLimit&) = delete;
-  BlockCacheLimit& operator=(const BlockCacheLimit&) = delete;
-
- private:
-  GIntBig before_;
-};
 
 /// The longest of a kind of step between posts, and how much they vary.
 struct Steps {
