@@ -49,8 +49,8 @@ std::string read_all(const std::string& path) {
   return bytes;
 }
 
-/// Throws FileError where a folder cannot be brought to disk. Some file systems, as shares of other systems, have no way
-/// to ask for that: there a name may be lost with the power, as long as the system has not written it by itself.
+/// Throws FileError where a folder cannot be brought to disk. Some file systems, as shares of other systems, have no
+/// way to ask for that: there a name may be lost with the power, as long as the system has not written it by itself.
 void require_on_disk(const std::string& folder) {
   const int failed = sync_folder(folder);
   if (failed != 0 && failed != EINVAL && failed != ENOTSUP && failed != ENOSYS)
