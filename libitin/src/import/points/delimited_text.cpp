@@ -108,6 +108,7 @@ void DelimitedText::choose_columns(const std::vector<std::string>& names, const 
     columns_ = {position->x, position->y, 0};
     geographic_ = position->geographic;
     columns_[2] = height_column(names, z_field);
+    if (z_field.empty()) find_other_height(names);
     return;
   }
   if (names.size() < 3)
@@ -131,13 +132,29 @@ std::size_t DelimitedText::height_column(const std::vector<std::string>& names, 
   throw FileError(path_, fmt::format("has no column of heights among {}; name it with `z_field`", names));
 }
 
+/// To be called once all columns are chosen.
+void DelimitedText::find_other_height(const std::vector<std::string>& names) {
+  for (const std::string_view name : kHeightNames)
+    if (const auto column = column_named(names, name);
+        column && std::find(columns_.begin(), columns_.end(), *column) == columns_.end())
+      other_height_ = names[*column];
+}
+
+std::string DelimitedText::warning() const {
+  if (!level_ || other_height_.empty()) return {};
+  return fmt::format("{0}: heights are 0 throughout; if they are in the column '{1}', give `z_field` {1}", path_,
+                     other_height_);
+}
+
 std::uint64_t DelimitedText::read(const Sink& sink) {
   TextTable table(path_, TextTable::Blanks::kBetweenCells);
   if (has_header_) table.next();
   table.set_most_cells(RowParser::most_of(columns_));
   const RowParser row(table, path_, columns_);
   PointBatch batch;
+  level_ = true;
   const auto hand_on = [&] {
+    level_ = level_ && std::all_of(batch.z.begin(), batch.z.end(), [](double z) { return z == 0; });
     sink(batch, std::min(1.0, static_cast<double>(table.bytes_read()) / size_));
     batch.clear();
   };

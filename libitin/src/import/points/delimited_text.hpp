@@ -34,6 +34,8 @@ class DelimitedText final : public PointReader {
   /// A position amid the first points.
   Point2 centre() const override { return centre_; }
   double size_hint() const override { return size_; }
+  /// Tells of another column of heights where those that were read are 0 throughout.
+  std::string warning() const override;
   /// Reads the points. Throws InputError naming file, line and text of the first malformed row.
   std::uint64_t read(const Sink& sink) override;
 
@@ -42,11 +44,15 @@ class DelimitedText final : public PointReader {
   void choose_columns(const std::vector<std::string>& names, const std::string& z_field);
   std::size_t height_column(const std::vector<std::string>& names, const std::string& z_field) const;
 
+  void find_other_height(const std::vector<std::string>& names);
+
   std::string path_;
   double size_ = 0;  ///< bytes
   std::array<std::size_t, 3> columns_{0, 1, 2};
   bool has_header_ = false;
   bool geographic_ = false;
+  std::string other_height_;  ///< a column that is called as heights are; empty: none, or the height was named
+  bool level_ = false;        ///< heights were 0 throughout
   Point2 centre_;
   std::vector<std::string> warnings_;
 };
