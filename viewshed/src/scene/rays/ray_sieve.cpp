@@ -24,7 +24,7 @@ unsigned bits_of_lanes(const Truths& lanes) {
 namespace baseline {
 #define ITIN_INSTRUCTIONS
 #define ITIN_BITS_OF(lanes) bits_of_lanes(lanes)
-constexpr unsigned kInVector = 4;
+constexpr unsigned kRaysInVector = 4;
 #include "scene/rays/ray_sieve_lanes.inc"
 #undef ITIN_BITS_OF
 #undef ITIN_INSTRUCTIONS
@@ -34,7 +34,7 @@ constexpr unsigned kInVector = 4;
 namespace avx2 {
 #define ITIN_INSTRUCTIONS [[gnu::target("avx2")]]
 #define ITIN_BITS_OF(lanes) static_cast<unsigned>(_mm256_movemask_ps(reinterpret_cast<__m256>(lanes)))
-constexpr unsigned kInVector = 8;
+constexpr unsigned kRaysInVector = 8;
 #include "scene/rays/ray_sieve_lanes.inc"
 #undef ITIN_BITS_OF
 #undef ITIN_INSTRUCTIONS
@@ -43,7 +43,7 @@ constexpr unsigned kInVector = 8;
 namespace avx512 {
 #define ITIN_INSTRUCTIONS [[gnu::target("avx512f,avx512bw,avx512dq,avx512vl")]]
 #define ITIN_BITS_OF(lanes) static_cast<unsigned>(_mm512_movepi32_mask(reinterpret_cast<__m512i>(lanes)))
-constexpr unsigned kInVector = 16;
+constexpr unsigned kRaysInVector = 16;
 #include "scene/rays/ray_sieve_lanes.inc"
 #undef ITIN_BITS_OF
 #undef ITIN_INSTRUCTIONS

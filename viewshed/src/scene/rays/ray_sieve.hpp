@@ -42,7 +42,7 @@ struct SieveCorners {
 /// How far things are off at most.
 struct SieveBounds {
   float place = 0, height = 0;
-  float rounding = 0;         ///< of a height, as a share of it
+  float rounding = 0;         ///< share of a height by which it may be off besides
   float grazing = 0;          ///< how far the ground may rise above a line that it does not hide
   float floor = 0;            ///< rays that begin here are not those of lines
   bool finds_hidden = false;  ///< whether rays that are certainly hidden are told
