@@ -198,7 +198,7 @@ bool FoliageAbout::along(const Point3& target, std::vector<Piece>& pieces) const
 bool FoliageAbout::along(const Point3& target, const SectionLine& exact, std::vector<Piece>& pieces) const {
   pieces.clear();
   const Line line(eye_, target, drop_);
-  // Of two triangles beside an edge that the line runs along, the line counts as passing over the one to its right.
+  // A line along an edge counts as passing over the triangle to its right, of the two beside it.
   using Edge = std::pair<std::uint32_t, std::uint32_t>;
   std::vector<Edge> beside, over;
   for_each_triangle(line, [&](const Triangle& corners) {
