@@ -54,9 +54,10 @@ void draw_farm_names(Drawing& drawing, const WirelineQuery& query, Point2 right_
     if (std::none_of(farms.begin(), farms.end(), [&](const auto& farm) { return farm.first == t.farm; }))
       farms.emplace_back(t.farm, t.colour);
   if (std::all_of(farms.begin(), farms.end(), [&](const auto& farm) { return farm.second == farms[0].second; })) return;
-  for (auto farm = farms.rbegin(); farm != farms.rend(); ++farm) {
-    const Lettering lettering{.size = size, .colour = drawn(farm->second), .align = Align::kRight, .bold = true};
-    const std::string name = farm->first.empty() ? "(no farm)" : farm->first;
+  std::reverse(farms.begin(), farms.end());
+  for (const auto& [farm, colour] : farms) {
+    const Lettering lettering{.size = size, .colour = drawn(colour), .align = Align::kRight, .bold = true};
+    const std::string name = farm.empty() ? "(no farm)" : farm;
     drawing.text(right_end, name, lettering);
     right_end.x -= drawing.text_width(name, lettering) + gap;
   }
