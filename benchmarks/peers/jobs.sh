@@ -6,11 +6,9 @@
 #   benchmarks/peers/jobs.sh
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/measure.sh"
+source "$(dirname "${BASH_SOURCE[0]}")/cardiff_folder.sh"
 
-readonly folder=$work/jobs terrain=$root/scripts/demo-data/cardiff.tif
-mkdir -p "$folder"
-cd "$folder"
-[ -f c.itin ] || "$itin" import c.itin "$terrain" --quiet >/dev/null
+enter_cardiff jobs
 awk 'BEGIN { print "x,y,height"; for (i = 0; i < 400; i++) print 303000 + 1700 * (i % 20) "," 173500 + 1700 * int(i / 20) ",20" }' \
   >masts.csv
 

@@ -6,12 +6,10 @@
 #   benchmarks/peers/merges.sh [CELL...]      metres; 40, 20, 10 and 5 where none are given
 set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/measure.sh"
+source "$(dirname "${BASH_SOURCE[0]}")/cardiff_folder.sh"
 require_tools gdalinfo
 
-readonly folder=$work/merges terrain=$root/scripts/demo-data/cardiff.tif
-mkdir -p "$folder"
-cd "$folder"
-[ -f c.itin ] || "$itin" import c.itin "$terrain" --quiet >/dev/null
+enter_cardiff merges
 awk 'BEGIN { print "x,y,height"; for (i = 0; i < 70; i++) print 303000 + 3400 * (i % 10) "," 173500 + 4800 * int(i / 10) ",20" }' \
   >masts.csv
 awk 'BEGIN { print "x,y,hub_height,rotor_diameter"

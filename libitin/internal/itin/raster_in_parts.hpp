@@ -36,4 +36,22 @@ class RasterInParts {
   std::unique_ptr<Scratch> scratch_;
 };
 
+/// Writes the raster of what holds its cells in memory or, where it has `parts`, has them part by part: the values that
+/// values_of(part), a vector of T, returns for each, one band after the other. Throws FileError, Cancelled.
+template <class T, class Whole, class ValuesOf>
+void write_raster_of(const std::string& path, const Whole& whole, const ValuesOf& values_of,
+                     const RasterDescription& description, const Progress& progress = NoProgress()) {
+  if (!whole.parts) {
+    const auto& values = values_of(whole);
+    return write_raster(path, whole.grid, std::span<const T>(values), description, progress);
+  }
+  RasterInParts<T> raster(path, whole.grid, description);
+  whole.parts->for_each([&](const Whole& part, RasterGrid::Cell north_west) {
+    progress.throw_if_cancelled();
+    const auto& values = values_of(part);
+    raster.write(north_west, part.grid.columns(), part.grid.rows(), values);
+  });
+  raster.finish(progress);
+}
+
 }  // namespace itin

@@ -1,20 +1,20 @@
-// The cells of a result, whether it holds them in memory or has them part by part.
+// The cells of a result, of an index or of a zone, whether it holds them in memory or has them part by part.
 //
 //   std::uint64_t seen = 0;
-//   for_each_part(result, [&](const Result& part) {
+//   for_each_part(result, [&](const Result& part, RasterGrid::Cell north_west) {
 //     for (const Verdict verdict : part.visible) seen += verdict == Verdict::kVisible;
 //   });
 #pragma once
 
-#include <viewshed/result.hpp>
+#include <itin/raster.hpp>
 
 namespace itin::viewshed {
 
-/// Calls use(part) for each part of a result. One that holds its cells is its own only part.
-template <class Use>
-void for_each_part(const Result& result, const Use& use) {
-  if (!result.parts) return use(result);
-  result.parts->for_each([&](const Result& part, RasterGrid::Cell) { use(part); });
+/// Calls use(part, north_west) for each part of a whole. One that holds its cells is its own only part.
+template <class Whole, class Use>
+void for_each_part(const Whole& whole, const Use& use) {
+  if (!whole.parts) return use(whole, RasterGrid::Cell{});
+  whole.parts->for_each(use);
 }
 
 }  // namespace itin::viewshed

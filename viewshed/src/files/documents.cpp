@@ -91,7 +91,7 @@ std::optional<CellsWithoutValue> cells_without_value(const Result& result) {
   const auto value = value_that_may_lack(result.values);
   if (!value) return std::nullopt;
   CellsWithoutValue cells{value->first};
-  for_each_part(result, [&](const Result& part) {
+  for_each_part(result, [&](const Result& part, RasterGrid::Cell) {
     const std::vector<float>& values = *value_that_may_lack(part.values)->second;
     for (std::size_t i = 0; i < values.size(); ++i)
       cells.cells += std::isnan(values[i]) && part.visible[i] != Verdict::kOutside ? 1 : 0;
@@ -103,7 +103,7 @@ std::vector<CellsWithMargin> cells_with_margins(const Result& result) {
   if (!std::holds_alternative<Levels>(result.values) || !result.request.budget.sensitivity_dbm) return {};
   const std::vector<ValueBand> bands = level_bands(result.request);
   std::vector<std::uint64_t> cells(bands.size());
-  for_each_part(result, [&](const Result& part) {
+  for_each_part(result, [&](const Result& part, RasterGrid::Cell) {
     for (const float level : part.get<Levels>().level_dbm)
       if (!std::isnan(level)) ++cells[band_of(bands, level)];
   });
@@ -123,7 +123,7 @@ std::vector<CellsOfObserver> cells_of_observers(const Result& result) {
   const double least = sensitivity.value_or(-kInfinity);
   std::vector<CellsOfObserver> of(observers);
   for (std::size_t i = 0; i < observers; ++i) of[i].observer = i;
-  for_each_part(result, [&](const Result& part) {
+  for_each_part(result, [&](const Result& part, RasterGrid::Cell) {
     const auto& levels = part.get<Levels>();
     for (std::size_t cell = 0; cell < levels.observer.size(); ++cell)
       if (const std::uint32_t number = levels.observer[cell]; number > 0 && levels.level_dbm[cell] >= least)

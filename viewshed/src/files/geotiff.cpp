@@ -252,17 +252,7 @@ class Writer {
     description_.band_name = bands.front();
     description_.further_bands.assign(bands.begin() + 1, bands.end());
     description_.nodata = nodata;
-    if (!result_.parts) {
-      const auto& values = values_of(result_);
-      return write_raster(path_, result_.grid, std::span<const T>(values), description_, progress_);
-    }
-    RasterInParts<T> raster(path_, result_.grid, description_);
-    result_.parts->for_each([&](const Result& part, RasterGrid::Cell north_west) {
-      progress_.throw_if_cancelled();
-      const auto& values = values_of(part);
-      raster.write(north_west, part.grid.columns(), part.grid.rows(), values);
-    });
-    raster.finish(progress_);
+    write_raster_of<T>(path_, result_, values_of, description_, progress_);
   }
 
   const std::string& path_;
@@ -324,13 +314,7 @@ void write_geotiff(const std::string& path, const VisibilityIndex& index, const 
                           {"refraction", request.earth.convention()}};
   description.metadata.insert(description.metadata.end(), options.metadata.begin(), options.metadata.end());
   description.overwrite = options.overwrite;
-  if (!index.parts) return write_raster(path, index.grid, bands_of(index), description, progress);
-  RasterInParts<float> raster(path, index.grid, description);
-  index.parts->for_each([&](const VisibilityIndex& part, RasterGrid::Cell north_west) {
-    progress.throw_if_cancelled();
-    raster.write(north_west, part.grid.columns(), part.grid.rows(), bands_of(part));
-  });
-  raster.finish(progress);
+  write_raster_of<float>(path, index, bands_of, description, progress);
 }
 
 }  // namespace itin::viewshed

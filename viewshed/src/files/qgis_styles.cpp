@@ -40,7 +40,7 @@ std::string names_of_set(const std::vector<Observer>& observers, std::uint32_t s
 
 std::string style_of_sets(const Result& result) {
   std::map<std::uint32_t, std::uint64_t> cells;
-  for_each_part(result, [&](const Result& part) {
+  for_each_part(result, [&](const Result& part, RasterGrid::Cell) {
     for (const std::uint32_t set : std::span(part.get<ObserverSets>().words).first(part.grid.cell_count()))
       if (set != 0) ++cells[set];
   });

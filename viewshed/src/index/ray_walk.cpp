@@ -53,14 +53,14 @@ constexpr std::size_t kInVector = 2;
 
 #ifdef __x86_64__
 namespace avx2 {
-#define ITIN_INSTRUCTIONS [[gnu::target("avx2")]]
+#define ITIN_INSTRUCTIONS ITIN_AVX2
 constexpr std::size_t kInVector = 4;
 #include "index/ray_walk_lanes.inc"
 #undef ITIN_INSTRUCTIONS
 }  // namespace avx2
 
 namespace avx512 {
-#define ITIN_INSTRUCTIONS [[gnu::target("avx512f,avx512bw,avx512dq,avx512vl")]]
+#define ITIN_INSTRUCTIONS ITIN_AVX512
 constexpr std::size_t kInVector = 8;
 #include "index/ray_walk_lanes.inc"
 #undef ITIN_INSTRUCTIONS

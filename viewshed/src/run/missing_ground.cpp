@@ -67,7 +67,7 @@ std::uint64_t count_without_ground(const Store& store, const Result& result, Pro
   if (any_elevation && one_view_holds_all && is_bounded(result.request)) return result.cells.outside;
   const Box area = area_of(store, result);
   std::uint64_t count = 0;
-  for_each_part(result, [&](const Result& part) {
+  for_each_part(result, [&](const Result& part, RasterGrid::Cell) {
     if (any_elevation) {
       count += for_each_outside(part, area, [](RasterGrid::Cell) {});
     } else {

@@ -40,14 +40,8 @@ class RasterFolder {
   template <class T, class ValuesOf>
   void write_parts(const std::string& name, const std::string& what, const ValuesOf& values_of,
                    RasterDescription description, const std::string& style) {
-    if (!zone_.parts) return write<T>(name, what, values_of(zone_), std::move(description), style);
     describe(name, what, description);
-    RasterInParts<T> raster(path(name + ".tif"), zone_.grid, description);
-    zone_.parts->for_each([&](const Zone& part, RasterGrid::Cell north_west) {
-      const std::vector<T>& values = values_of(part);
-      raster.write(north_west, part.grid.columns(), part.grid.rows(), values);
-    });
-    raster.finish();
+    write_raster_of<T>(path(name + ".tif"), zone_, values_of, description);
     add(name, what, style);
   }
   std::string path(const std::string& name) const { return folder_ + "/" + name; }

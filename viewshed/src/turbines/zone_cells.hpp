@@ -1,18 +1,14 @@
-// The cells of a zone, whether it holds all that is told of them or has it part by part.
+// The cells of a zone that have values, whether it holds these or has them part by part.
 //
-//   for_each_part(zone, [&](const Zone& part, RasterGrid::Cell north_west) { count(part.bare.turbines); });
+//   for_each_cell_with_value(zone, zone.bare, [&](const Visibility& seen, std::size_t cell, std::size_t of_zone) {
+//     tips += seen.tip_count[cell];
+//   });
 #pragma once
 
+#include <viewshed/result_parts.hpp>
 #include <viewshed/turbines.hpp>
 
 namespace itin::viewshed {
-
-/// Calls use(part, north_west) for each part of a zone. One that holds its cells is its own only part.
-template <class Use>
-void for_each_part(const Zone& zone, const Use& use) {
-  if (!zone.parts) return use(zone, RasterGrid::Cell{});
-  zone.parts->for_each(use);
-}
 
 /// Returns what a part of the zone has over the surface that `seen` is of: zone.bare, or *zone.screened.
 inline const Visibility& of_same_surface(const Zone& zone, const Visibility& seen, const Zone& part) {

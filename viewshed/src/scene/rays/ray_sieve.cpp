@@ -32,7 +32,7 @@ constexpr unsigned kRaysInVector = 4;
 
 #ifdef __x86_64__
 namespace avx2 {
-#define ITIN_INSTRUCTIONS [[gnu::target("avx2")]]
+#define ITIN_INSTRUCTIONS ITIN_AVX2
 #define ITIN_BITS_OF(lanes) static_cast<unsigned>(_mm256_movemask_ps(reinterpret_cast<__m256>(lanes)))
 constexpr unsigned kRaysInVector = 8;
 #include "scene/rays/ray_sieve_lanes.inc"
@@ -41,7 +41,7 @@ constexpr unsigned kRaysInVector = 8;
 }  // namespace avx2
 
 namespace avx512 {
-#define ITIN_INSTRUCTIONS [[gnu::target("avx512f,avx512bw,avx512dq,avx512vl")]]
+#define ITIN_INSTRUCTIONS ITIN_AVX512
 #define ITIN_BITS_OF(lanes) static_cast<unsigned>(_mm512_movepi32_mask(reinterpret_cast<__m512i>(lanes)))
 constexpr unsigned kRaysInVector = 16;
 #include "scene/rays/ray_sieve_lanes.inc"

@@ -1,13 +1,14 @@
 #include "workflows/siting/site_rasters.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
 #include <utility>
 
+#include <itin/sort_unique.hpp>
 #include <viewshed/viewshed.hpp>
 
+#include "modes/observation.hpp"
 #include "siting/coverage/group_survey.hpp"
 
 namespace itin::viewshed {
@@ -72,10 +73,7 @@ class ServedCells {
 Result no_levels(const RasterGrid& grid, Request request) {
   Result result;
   result.grid = grid, result.request = std::move(request);
-  result.visible.assign(grid.cell_count(), Verdict::kOutside);
-  constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
-  result.values = Levels{std::vector<float>(grid.cell_count(), kNone), std::vector<float>(grid.cell_count(), kNone),
-                         std::vector<std::uint32_t>(grid.cell_count())};
+  Observation::prepare(result);
   return result;
 }
 
@@ -101,8 +99,7 @@ Result site_levels(const Store& store, const SitePlanRequest& request, const Sit
   Request look = request_of_levels(survey, sites);
   look.grid = *cells.targets.grid;
   look.margins_db = {0, request.margin_db};
-  std::sort(look.margins_db.begin(), look.margins_db.end());
-  look.margins_db.erase(std::unique(look.margins_db.begin(), look.margins_db.end()), look.margins_db.end());
+  sort_unique(look.margins_db);
   ComputeOptions options;
   options.memory_bytes = request.memory_bytes, options.whole_surface = false;
   return compute_with_surface(store, look, options, progress).result;
