@@ -9,7 +9,7 @@ namespace itin {
 
 struct LayerCrs {
   std::string wkt;      ///< empty where the layer states none, and none is given
-  std::string warning;  ///< that the layer's own is not used, and which one is; empty where it is, or states none
+  std::string warning;  ///< says which one does not count, where the layer states another than the one given
 };
 
 /// Returns the layer's own CRS, or the one `given` where it states none, one that is not defined (QGIS's "Undefined"),
