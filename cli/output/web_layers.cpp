@@ -79,21 +79,24 @@ class WebLayer {
         ground ? opaque_picture(cells) : clear_picture(cells));
   }
 
-  std::string operator()(const profile::SheetLines& lines) const {
-    const double height = std::round(kPathUnits * frame_.height() / frame_.width());
+  std::string operator()(const profile::SheetAreas& areas) const {
     std::string path;
-    for (const profile::SheetLine& line : lines.lines) {
-      std::vector<Point2> points;
-      for (const Point2& p : line.points) points.push_back({across(p.x) * kPathUnits, down(p.y) * height});
-      path += svg_path(points, kTenthOfAPixel);
-    }
+    for (const auto& rings : areas.areas)
+      for (const std::vector<Point2>& ring : rings) path += path_of(ring) + "z";
+    return drawn(fmt::format("fill=\"{}\" fill-opacity=\"{:.2g}\" fill-rule=\"evenodd\"", web_colour(areas.colour),
+                             areas.colour.alpha / 255.0),
+                 path);
+  }
+
+  std::string operator()(const profile::SheetLines& lines) const {
+    std::string path;
+    for (const profile::SheetLine& line : lines.lines) path += path_of(line.points);
     const double width = lines.width_mm * kPixelsPerMillimetre;
-    return fmt::format(
-        "<svg width=\"100%\" height=\"100%\" viewBox=\"0 0 {} {}\" preserveAspectRatio=\"none\"><path fill=\"none\" "
-        "stroke=\"{}\" stroke-opacity=\"{:.2g}\" stroke-width=\"{:.2g}\"{} vector-effect=\"non-scaling-stroke\" "
-        "d=\"{}\"/></svg>\n",
-        kPathUnits, height, web_colour(lines.colour), lines.colour.alpha / 255.0, width,
-        lines.dashed ? " stroke-dasharray=\"8 5\"" : "", path);
+    return drawn(fmt::format("fill=\"none\" stroke=\"{}\" stroke-opacity=\"{:.2g}\" stroke-width=\"{:.2g}\"{} "
+                             "vector-effect=\"non-scaling-stroke\"",
+                             web_colour(lines.colour), lines.colour.alpha / 255.0, width,
+                             lines.dashed ? " stroke-dasharray=\"8 5\"" : ""),
+                 path);
   }
 
   std::string operator()(const profile::SheetMarks& marks) const {
@@ -106,6 +109,22 @@ class WebLayer {
   }
 
  private:
+  double path_height() const { return std::round(kPathUnits * frame_.height() / frame_.width()); }
+
+  std::string path_of(const std::vector<Point2>& ground) const {
+    std::vector<Point2> points;
+    for (const Point2& p : ground) points.push_back({across(p.x) * kPathUnits, down(p.y) * path_height()});
+    return svg_path(points, kTenthOfAPixel);
+  }
+
+  /// Returns a layer of one path.
+  std::string drawn(const std::string& looks, const std::string& path) const {
+    return fmt::format(
+        "<svg width=\"100%\" height=\"100%\" viewBox=\"0 0 {} {}\" preserveAspectRatio=\"none\"><path {} "
+        "d=\"{}\"/></svg>\n",
+        kPathUnits, path_height(), looks, path);
+  }
+
   double across(double x) const { return (x - frame_.xmin) / frame_.width(); }
   double down(double y) const { return (frame_.ymax - y) / frame_.height(); }
 

@@ -123,6 +123,7 @@ void ViewshedOutputs::write(const Store& store, viewshed::ViewshedWithSurface& c
     options.sources = context.sources;
     options.no_data = no_data;
     options.outside = kOutOfView;
+    options.foliage = context.foliage;
     options.title = title_of(computed.result) + (context.foliage.empty() ? "" : ", through foliage");
     options.crs_wkt = context.metadata.crs_wkt;
     if (context.missing.without_ground > 0) {

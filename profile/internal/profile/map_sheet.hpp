@@ -28,6 +28,12 @@ struct SheetCells {
   std::vector<Rgba> colours;
 };
 
+/// Areas of one colour. Each has rings, read by the even-odd rule.
+struct SheetAreas {
+  std::vector<std::vector<std::vector<Point2>>> areas;
+  Rgba colour;
+};
+
 /// A label stands where the line is farthest north, for there a contour runs from west to east, or else about its
 /// middle.
 struct SheetLine {
@@ -56,7 +62,7 @@ struct SheetMarks {
   std::vector<SheetMark> marks;
 };
 
-using SheetLayer = std::variant<SheetCells, SheetLines, SheetMarks>;
+using SheetLayer = std::variant<SheetCells, SheetAreas, SheetLines, SheetMarks>;
 
 /// The side of a pixel of the pictures that are made for sheets: relief, and stripes where there is no ground.
 inline constexpr double kSheetPixelMm = 0.25;

@@ -121,6 +121,19 @@ class CairoSurface final : public Surface {
     cairo_fill(cairo_);
   }
 
+  void area(std::span<const std::vector<Point2>> rings, const Colour& fill) override {
+    cairo_new_path(cairo_);
+    for (const std::vector<Point2>& ring : rings) {
+      for (const Point2& p : ring) cairo_line_to(cairo_, p.x, p.y);
+      cairo_close_path(cairo_);
+      cairo_new_sub_path(cairo_);
+    }
+    set_colour(cairo_, fill);
+    cairo_set_fill_rule(cairo_, CAIRO_FILL_RULE_EVEN_ODD);
+    cairo_fill(cairo_);
+    cairo_set_fill_rule(cairo_, CAIRO_FILL_RULE_WINDING);
+  }
+
   void circle(Point2 centre, double radius, const Colour& fill) override {
     cairo_new_path(cairo_);
     cairo_arc(cairo_, centre.x, centre.y, radius, 0, 2 * std::numbers::pi);

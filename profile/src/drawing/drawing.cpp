@@ -35,6 +35,10 @@ void Drawing::polygon(std::span<const Point2> points, const Colour& fill) {
   surface_->polygon(points, fill);
 }
 
+void Drawing::area(std::span<const std::vector<Point2>> rings, const Colour& fill) {
+  surface_->area(rings, fill);
+}
+
 void Drawing::rectangle(const Box& box, const Colour& fill) {
   const Point2 corners[] = {{box.xmin, box.ymin}, {box.xmax, box.ymin}, {box.xmax, box.ymax}, {box.xmin, box.ymax}};
   polygon(corners, fill);

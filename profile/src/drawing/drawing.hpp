@@ -62,6 +62,8 @@ class Drawing {
 
   void polyline(std::span<const Point2> points, const Stroke& stroke);
   void polygon(std::span<const Point2> points, const Colour& fill);
+  /// Fills what rings enclose by the even-odd rule: a ring within another is a hole.
+  void area(std::span<const std::vector<Point2>> rings, const Colour& fill);
   void rectangle(const Box& box, const Colour& fill);
   void outline(const Box& box, const Stroke& stroke);
   void circle(Point2 centre, double radius, const Colour& fill);

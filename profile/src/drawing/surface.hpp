@@ -6,6 +6,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "drawing/drawing.hpp"
 
@@ -16,6 +17,7 @@ class Surface {
   virtual ~Surface() = default;
   virtual void polyline(std::span<const Point2> points, const Stroke& stroke) = 0;
   virtual void polygon(std::span<const Point2> points, const Colour& fill) = 0;
+  virtual void area(std::span<const std::vector<Point2>> rings, const Colour& fill) = 0;
   virtual void circle(Point2 centre, double radius, const Colour& fill) = 0;
   virtual void cells(const Box& box, CellCounts counts, std::span<const Rgba> colours) = 0;
   virtual void text(Point2 anchor, const std::string& text, const Lettering& lettering) = 0;

@@ -58,6 +58,12 @@ class SvgSurface final : public Surface {
     svg_ += fmt::format("<path{} d=\"{}z\"/>\n", painted("fill", fill), path_of(points));
   }
 
+  void area(std::span<const std::vector<Point2>> rings, const Colour& fill) override {
+    std::string path;
+    for (const std::vector<Point2>& ring : rings) path += path_of(ring) + "z";
+    svg_ += fmt::format("<path{} fill-rule=\"evenodd\" d=\"{}\"/>\n", painted("fill", fill), path);
+  }
+
   void circle(Point2 centre, double radius, const Colour& fill) override {
     svg_ += fmt::format("<circle cx=\"{}\" cy=\"{}\" r=\"{}\"{}/>\n", coordinate(centre.x), coordinate(centre.y),
                         coordinate(radius), painted("fill", fill));

@@ -40,6 +40,13 @@ Point2 MapFrame::at(Point2 p) const {
   return {paper_.frame.xmin + (p.x - ground_.xmin) * scale_, paper_.frame.ymax - (p.y - ground_.ymin) * scale_};
 }
 
+std::vector<Point2> MapFrame::at(const std::vector<Point2>& ground) const {
+  std::vector<Point2> points;
+  points.reserve(ground.size());
+  for (const Point2& p : ground) points.push_back(at(p));
+  return points;
+}
+
 void MapFrame::draw(const MapSheet& sheet) {
   drawing_.clip(paper_.frame);
   drawing_.rectangle(paper_.frame, kNoLayer);
@@ -61,15 +68,19 @@ void MapFrame::draw_layer(const SheetCells& cells) {
   drawing_.cells({top.x, top.y, bottom.x, bottom.y}, counts_of(cells.grid), cells.colours);
 }
 
+void MapFrame::draw_layer(const SheetAreas& areas) {
+  std::vector<std::vector<Point2>> rings;
+  for (const auto& area : areas.areas) {
+    rings.clear();
+    for (const std::vector<Point2>& ring : area) rings.push_back(at(ring));
+    drawing_.area(rings, drawn(areas.colour));
+  }
+}
+
 void MapFrame::draw_layer(const SheetLines& lines) {
   Stroke stroke{drawn(lines.colour), lines.width_mm * kPointsPerMillimetre * paper_.type, {}};
   if (lines.dashed) stroke.dashes = map_dashes(paper_.type);
-  std::vector<Point2> points;
-  for (const SheetLine& line : lines.lines) {
-    points.clear();
-    for (const Point2& p : line.points) points.push_back(at(p));
-    drawing_.polyline(points, stroke);
-  }
+  for (const SheetLine& line : lines.lines) drawing_.polyline(at(line.points), stroke);
 }
 
 void MapFrame::draw_layer(const SheetMarks& marks) {
@@ -85,8 +96,7 @@ void MapFrame::draw_layer(const SheetMarks& marks) {
 
 /// The points of a line in the drawing, the best place for its label first.
 std::vector<Point2> MapFrame::label_places(const SheetLine& line) const {
-  std::vector<Point2> places;
-  for (const Point2& p : line.points) places.push_back(at(p));
+  std::vector<Point2> places = at(line.points);
   if (!line.label_in_middle) {
     std::sort(places.begin(), places.end(), [](Point2 a, Point2 b) { return a.y != b.y ? a.y < b.y : a.x < b.x; });
     return places;

@@ -26,7 +26,9 @@ class MapFrame {
 
  private:
   Point2 at(Point2 ground) const;
+  std::vector<Point2> at(const std::vector<Point2>& ground) const;
   void draw_layer(const SheetCells& cells);
+  void draw_layer(const SheetAreas& areas);
   void draw_layer(const SheetLines& lines);
   void draw_layer(const SheetMarks& marks);
   std::vector<Point2> label_places(const SheetLine& line) const;

@@ -1,6 +1,8 @@
 // Areas in messages, legends and reports, for people to read.
 #pragma once
 
+#include <cmath>
+#include <cstdint>
 #include <string>
 
 #include <fmt/format.h>
@@ -17,8 +19,8 @@ inline std::string area_text(double square_metres) {
 /// Returns a part of an area as text, in the unit and with the decimals that all parts of the whole have: a legend has
 /// one unit.
 inline std::string part_text(double square_metres, double whole_square_metres) {
-  return whole_square_metres >= 1e5 ? fmt::format("{:.2f} km²", square_metres / 1e6)
-                                    : fmt::format("{:.0f} m²", square_metres);
+  return whole_square_metres >= 1e6 ? fmt::format("{:.2f} km²", square_metres / 1e6)
+                                    : grouped(static_cast<std::uint64_t>(std::llround(square_metres))) + " m²";
 }
 
 }  // namespace itin::viewshed

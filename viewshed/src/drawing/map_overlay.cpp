@@ -333,7 +333,7 @@ void MapOverlay::add_key(std::vector<Tint> tints, const std::string& what, std::
 void MapOverlay::add_key(std::vector<Tint> tints, const std::string& what, std::uint64_t cells,
                          const MapOptions& options, double ClassShares::*share) {
   if (!options.shares) return add_key(std::move(tints), what, cells);
-  keys_.push_back({std::move(tints), fmt::format("{}: {:.1f} % of {} ({})", what, *options.shares.*share,
+  keys_.push_back({std::move(tints), fmt::format("{}: {:.1f} % of {}, and {}", what, *options.shares.*share,
                                                  options.shares->of, area_of(cells))});
 }
 

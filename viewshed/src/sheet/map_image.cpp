@@ -60,6 +60,7 @@ profile::TitleBlock title_of(const Result& result, const MapOptions& options) {
   profile::TitleBlock title;
   title.title = options.title;
   title.statement = options.subtitle.empty() ? subtitle_of(result) : options.subtitle;
+  if (!options.foliage.empty()) title.facts.emplace_back("Foliage", options.foliage);
   title.facts.emplace_back("Earth", result.request.earth.convention());
   if (!options.beyond_text.empty()) title.facts.emplace_back("Beyond the ground data", options.beyond_text);
   title.sources = options.sources;

@@ -46,6 +46,9 @@ bool stands_for(const SheetKey& key, const profile::SheetLines& lines) {
   const auto sample = lines.dashed ? SheetKey::Sample::kDashes : SheetKey::Sample::kLine;
   return key.sample == sample && key.colours.front() == lines.colour;
 }
+bool stands_for(const SheetKey& key, const profile::SheetAreas& areas) {
+  return key.sample == SheetKey::Sample::kPatch && key.colours.front() == areas.colour;
+}
 bool stands_for(const SheetKey&, const profile::SheetCells&) {
   return false;
 }
@@ -60,6 +63,9 @@ void add_objects(const profile::SheetLines& lines, const Box& frame, Beyond& bey
     for (const Point2& p : line.points) extent.extend(p);
     beyond.add(extent, line.label, frame);
   }
+}
+void add_objects(const profile::SheetAreas& areas, const Box& frame, Beyond& beyond) {
+  for (const std::vector<std::vector<Point2>>& rings : areas.areas) beyond.add(box_of_rings(rings), "", frame);
 }
 void add_objects(const profile::SheetCells&, const Box&, Beyond&) {}
 

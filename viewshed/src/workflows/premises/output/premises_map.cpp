@@ -17,18 +17,14 @@ namespace {
 
 using Sample = profile::SheetKey::Sample;
 
-MapObjects lines_of_class(profile::SheetLines lines, const FeatureClass& service) {
-  lines.colour = service.colour;
-  return {{std::move(lines)}, {{Sample::kLine, {service.colour}, service.text}}};
-}
-
-/// The feet of the buildings of a class that walls do not show.
-MapObjects feet_of(const PremisesSurvey& survey, PremisesService service) {
-  profile::SheetLines lines{{}, {}, 0.25, false};
+/// The buildings of a class, in colours that leave walls to be seen.
+MapObjects buildings_of(const PremisesSurvey& survey, PremisesService service) {
+  const FeatureClass& shown = class_of(service);
+  profile::SheetAreas buildings{{}, {shown.colour.red, shown.colour.green, shown.colour.blue, 90}};
   for (const Premises& p : survey.premises)
-    if (service_of(p) == service)
-      for (const std::vector<Point2>& ring : p.foot) lines.lines.push_back({ring, ""});
-  return lines_of_class(std::move(lines), class_of(service));
+    if (service_of(p) == service) buildings.areas.push_back(p.foot);
+  if (buildings.areas.empty()) return {};
+  return {{buildings}, {{Sample::kPatch, {buildings.colour}, shown.text}}};
 }
 
 std::vector<Point2> in_plan(const std::vector<Point3>& line) {
@@ -42,19 +38,20 @@ MapObjects walls_of(const PremisesSurvey& survey, WallService service) {
   for (const Premises& p : survey.premises)
     for (const WallPlace& wall : p.walls)
       if (service_of(wall, survey.request.storey) == service) lines.lines.push_back({in_plan(wall.stretch), ""});
-  return lines_of_class(std::move(lines), class_of(service));
+  if (lines.lines.empty()) return {};
+  const FeatureClass& shown = class_of(service);
+  lines.colour = shown.colour;
+  return {{std::move(lines)}, {{Sample::kLine, {shown.colour}, shown.text}}};
 }
 
 std::vector<MapObjects> premises_objects(const PremisesSurvey& survey) {
   std::vector<MapObjects> objects;
   for (const PremisesService service : {PremisesService::kOutOfReach, PremisesService::kUnserved,
                                         PremisesService::kUndecided, PremisesService::kWall, PremisesService::kRoof})
-    objects.push_back(feet_of(survey, service));
+    objects.push_back(buildings_of(survey, service));
   for (const WallService service :
        {WallService::kUnserved, WallService::kUndecided, WallService::kHigh, WallService::kLow})
     objects.push_back(walls_of(survey, service));
-  std::erase_if(objects,
-                [](const MapObjects& o) { return std::get<profile::SheetLines>(o.layers.front()).lines.empty(); });
   std::vector<profile::SheetMark> masts;
   for (const SitePosition& mast : survey.masts) masts.push_back({mast.position, mast.name});
   objects.push_back(mast_objects(std::move(masts), "Mast"));
