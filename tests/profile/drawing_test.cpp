@@ -1,4 +1,4 @@
-// Texts broken into lines, against what holds of every such text.
+// Texts broken into lines, against what holds of every such text; areas, and equal bytes of equal pictures.
 // By its place: viewsheds have a header of this name as well.
 #include "../../profile/src/drawing/drawing.hpp"
 
@@ -54,6 +54,21 @@ std::string lettered(Drawing::Format format) {
   for (double size = 5; size < 20; size += 0.5)
     drawing.text({5, y += 9}, "Caerphilly ST 08 91 (m\u00b2)", {.size = size, .bold = y > 150});
   return drawing.finish();
+}
+
+/// Whatever way the rings run.
+TEST(Drawing, LeavesHolesOfAreasOpen) {
+  const std::vector<Point2> shell{{10, 10}, {90, 10}, {90, 90}, {10, 90}, {10, 10}};
+  const std::vector<Point2> hole{{40, 40}, {60, 40}, {60, 60}, {40, 60}, {40, 40}};
+  for (const auto& inner : {hole, std::vector<Point2>(hole.rbegin(), hole.rend())}) {
+    Drawing drawing(Drawing::Format::kPixels, 100, 100, 1);
+    drawing.area(std::vector{shell, inner}, {0, 0, 0});
+    const std::string pixels = drawing.finish();
+    const auto is_black = [&](std::size_t x, std::size_t y) { return pixels[3 * (100 * y + x)] == '\0'; };
+    EXPECT_TRUE(is_black(25, 50));
+    EXPECT_FALSE(is_black(50, 50));
+    EXPECT_FALSE(is_black(5, 50));
+  }
 }
 
 TEST(Drawing, HasTheSameBytesWhateverWasDrawnBefore) {
