@@ -1,5 +1,4 @@
 #include <filesystem>
-#include <iterator>
 #include <set>
 
 #include <fmt/format.h>
@@ -10,6 +9,7 @@
 #include <itin/file_ending.hpp>
 #include <itin/output_file.hpp>
 #include <itin/paths.hpp>
+#include <itin/table_columns.hpp>
 #include <profile/chart.hpp>
 #include <profile/documents.hpp>
 #include <profile/foliage_text.hpp>
@@ -20,18 +20,25 @@ namespace itin::profile {
 
 namespace {
 
+struct PointOfSurface {
+  const SurfaceProfile* surface;
+  const ProfilePoint* point;
+};
+
 std::string profiles_csv(const PathProfiles& all) {
-  const bool several = all.profiles.size() > 1;
+  using Row = const PointOfSurface&;
   const std::vector<std::string> themes = theme_names(all.metadata);
-  std::string text = several ? "tolerance,distance,x,y,z,theme\n" : "distance,x,y,z,theme\n";
-  const auto out = std::back_inserter(text);
-  for (const SurfaceProfile& surface : all.profiles) {
-    for (const ProfilePoint& p : surface.profile.points) {
-      if (several) fmt::format_to(out, "{},", surface.detail.coarsest());
-      fmt::format_to(out, "{},{},{},{},{}\n", p.distance_m, p.x, p.y, p.ground_m, themes[p.theme]);
-    }
-  }
-  return text;
+  std::vector<TableColumn<PointOfSurface>> columns{{"distance", [](Row r) { return r.point->distance_m; }},
+                                                   {"x", [](Row r) { return r.point->x; }},
+                                                   {"y", [](Row r) { return r.point->y; }},
+                                                   {"z", [](Row r) { return r.point->ground_m; }},
+                                                   {"theme", [&](Row r) { return themes[r.point->theme]; }}};
+  if (all.profiles.size() > 1)
+    columns.insert(columns.begin(), {"tolerance", [](Row r) { return r.surface->detail.coarsest(); }});
+  std::vector<PointOfSurface> rows;
+  for (const SurfaceProfile& surface : all.profiles)
+    for (const ProfilePoint& point : surface.profile.points) rows.push_back({&surface, &point});
+  return csv_of(columns, rows);
 }
 
 /// Lines over ground without gaps, of one theme; single points are left out.

@@ -3,9 +3,15 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
+#include <itin/table_columns.hpp>
 #include <profile/line_classes.hpp>
 #include <profile/report_text.hpp>
 
@@ -106,19 +112,24 @@ constexpr std::array<FeatureClass, 6> kPointClasses{{{"from", "First end", {20, 
                                                      {"bullington", "Bullington's edge", {204, 121, 167}},
                                                      {"deygout", "Deygout's edge", {230, 159, 0}}}};
 
-/// A point that the losses or the reflection name.
+/// A point that maps name.
 struct PointOfPath {
-  const char* what;
+  std::string what;
   std::string name;
   double distance_m;
+  std::optional<double> height_m;  ///< of an end above what it stands on
   Point3 place;
 };
-/// The point of reflection, and the edges of the losses.
-std::vector<PointOfPath> path_points(const LosReport& report) {
-  std::vector<PointOfPath> points;
+/// The ends, the critical point, the point of reflection, and the edges of the losses.
+std::vector<PointOfPath> path_points(const LosReport& report, const Path& path) {
+  const double length = report.profile.length_m, from = report.query.from_height_m, to = report.query.to_height_m;
+  std::vector<PointOfPath> points{{"from", fmt::format("A, {:g} m", from), 0, from, path.ray(0)},
+                                  {"to", fmt::format("B, {:g} m", to), length, to, path.ray(length)}};
+  if (const auto& p = report.critical)
+    points.push_back({"critical", "Critical point, " + critical_line(report), p->distance_m, {}, place_of(*p)});
   const auto add = [&](const char* what, std::string name, double distance_m, double elevation_m) {
     const Point2 p = position_at(report, distance_m);
-    points.push_back({what, std::move(name), distance_m, {p.x, p.y, elevation_m}});
+    points.push_back({what, std::move(name), distance_m, {}, {p.x, p.y, elevation_m}});
   };
   const std::optional<Reflection>& r = report.reflection;
   if (r && r->ground_m)
@@ -141,16 +152,75 @@ std::string obstruction_name(const LosReport& report, const Obstruction& o) {
   return fmt::format("{}, {:.2f} m above the ray", cause_of(report, o.theme, o.feature), o.depth_m);
 }
 
+VectorLayer sight_line_layer(const LosReport& report) {
+  using Row = const LosReport&;
+  const std::vector<TableColumn<LosReport>> columns{
+      {"verdict", [](Row r) { return name_of(r.verdict); }},
+      {"distance_m", [](Row r) { return r.profile.length_m; }},
+      {"clearance_m", &LosReport::clearance_m},
+      {"fresnel_fraction", [](Row r) { return if_any(r.fresnel, &FresnelClearance::fraction); }},
+      {"ld_db", [](Row r) { return if_any(r.losses, &PathLosses::ld_db); }},
+      {"geodesic_distance_m", &LosReport::geodesic_m},
+      {"gap_m", [](Row r) { return r.profile.gap_length_m(); }},
+      {"known_verdict", [](Row r) { return name_of(r.known_verdict); }}};
+  return layer_of(
+      "sight_line", VectorLayer::Shape::kLines, columns, std::span(&report, 1),
+      [](Row r) { return Path(r).ray_line(); }, line_style("verdict", kVerdictClasses, 0.8));
+}
+
+VectorLayer points_layer(const LosReport& report) {
+  const std::vector<TableColumn<PointOfPath>> columns{
+      {"what", &PointOfPath::what}, {"distance_m", &PointOfPath::distance_m}, {"height_m", &PointOfPath::height_m}};
+  return layer_of(
+      "points", VectorLayer::Shape::kPoints, columns, path_points(report, Path(report)),
+      [](const PointOfPath& p) { return std::vector{p.place}; }, point_style("what", kPointClasses));
+}
+
+/// A column whose value is the same in all rows: that of the layer's only class.
+template <class Row>
+TableColumn<Row> what_column(const FeatureClass& only) {
+  return {"what", [name = std::string(only.name)](const Row&) { return name; }};
+}
+
+VectorLayer ground_layer(const LosReport& report) {
+  using Stretch = std::vector<Point3>;
+  const std::vector<TableColumn<Stretch>> columns{what_column<Stretch>(kGroundClass[0]), {"points", &Stretch::size}};
+  return layer_of(
+      "ground", VectorLayer::Shape::kLines, columns, Path(report).ground_lines(),
+      [](const Stretch& stretch) { return stretch; }, line_style("what", kGroundClass, 0.4));
+}
+
+VectorLayer obstructions_layer(const LosReport& report) {
+  const std::vector<TableColumn<Obstruction>> columns{
+      what_column<Obstruction>(kObstructionClass[0]),
+      {"from_m", &Obstruction::from_m},
+      {"to_m", &Obstruction::to_m},
+      {"peak_at_m", &Obstruction::peak_at_m},
+      {"depth_m", &Obstruction::depth_m},
+      {"cause", [&](const Obstruction& o) { return cause_of(report, o.theme, o.feature); }}};
+  const Path path(report);
+  return layer_of(
+      "obstructions", VectorLayer::Shape::kLines, columns, report.obstructions,
+      [&](const Obstruction& o) { return path.obstruction_line(o); }, line_style("what", kObstructionClass, 1.6));
+}
+
+VectorLayer gaps_layer(const LosReport& report) {
+  using Gap = std::pair<double, double>;
+  const std::vector<TableColumn<Gap>> columns{
+      what_column<Gap>(kGapClass[0]), {"from_m", &Gap::first}, {"to_m", &Gap::second}};
+  const Path path(report);
+  return layer_of(
+      "gaps", VectorLayer::Shape::kLines, columns, report.profile.gaps,
+      [&](const Gap& gap) { return path.ray_line(gap.first, gap.second); }, line_style("what", kGapClass, 1.6));
+}
+
 }  // namespace
 
 std::string report_kml(const LosReport& report) {
   const Path path(report);
   const double length = report.profile.length_m;
   Kml kml = kml_of(report);
-  kml.point(fmt::format("A, {:g} m", report.query.from_height_m), path.ray(0));
-  kml.point(fmt::format("B, {:g} m", report.query.to_height_m), path.ray(length));
-  if (report.critical) kml.point("Critical point, " + critical_line(report), place_of(*report.critical));
-  for (const PointOfPath& p : path_points(report)) kml.point(p.name, p.place);
+  for (const PointOfPath& p : path_points(report, path)) kml.point(p.name, p.place);
   kml.line("Ray", "ray", path.ray_line());
   for (const std::vector<Point3>& line : path.ground_lines()) kml.line("Ground", "ground", line);
   for (const Obstruction& o : report.obstructions) {
@@ -169,68 +239,8 @@ std::string report_kml(const LosReport& report) {
 }
 
 std::vector<VectorLayer> report_layers(const LosReport& report) {
-  using enum VectorLayer::Type;
-  using Shape = VectorLayer::Shape;
-  const Path path(report);
-  const auto metres = [](const std::optional<double>& v) { return v ? VectorLayer::Value(*v) : VectorLayer::Value(); };
-  VectorLayer line{"sight_line",
-                   Shape::kLines,
-                   {{"verdict", kText},
-                    {"distance_m", kNumber},
-                    {"clearance_m", kNumber},
-                    {"fresnel_fraction", kNumber},
-                    {"ld_db", kNumber},
-                    {"geodesic_distance_m", kNumber},
-                    {"gap_m", kNumber},
-                    {"known_verdict", kText}},
-                   {},
-                   line_style("verdict", kVerdictClasses, 0.8)};
-  line.features.push_back(
-      {path.ray_line(),
-       {std::string(name_of(report.verdict)), report.profile.length_m, metres(report.clearance_m),
-        metres(report.fresnel ? std::optional(report.fresnel->fraction) : std::nullopt),
-        metres(report.losses ? std::optional(report.losses->ld_db) : std::nullopt), metres(report.geodesic_m),
-        report.profile.gap_length_m(), std::string(name_of(report.known_verdict))}});
-  VectorLayer ends{"points",
-                   Shape::kPoints,
-                   {{"what", kText}, {"distance_m", kNumber}, {"height_m", kNumber}},
-                   {},
-                   point_style("what", kPointClasses)};
-  ends.features.push_back({{path.ray(0)}, {std::string("from"), 0.0, report.query.from_height_m}});
-  ends.features.push_back(
-      {{path.ray(report.profile.length_m)}, {std::string("to"), report.profile.length_m, report.query.to_height_m}});
-  if (report.critical)
-    ends.features.push_back({{place_of(*report.critical)}, {std::string("critical"), report.critical->distance_m, {}}});
-  for (const PointOfPath& p : path_points(report))
-    ends.features.push_back({{p.place}, {std::string(p.what), p.distance_m, {}}});
-  VectorLayer ground{
-      "ground", Shape::kLines, {{"what", kText}, {"points", kWhole}}, {}, line_style("what", kGroundClass, 0.4)};
-  for (const std::vector<Point3>& stretch : path.ground_lines())
-    ground.features.push_back(
-        {stretch, {std::string(kGroundClass[0].name), static_cast<std::int64_t>(stretch.size())}});
-  VectorLayer cuts{"obstructions",
-                   Shape::kLines,
-                   {{"what", kText},
-                    {"from_m", kNumber},
-                    {"to_m", kNumber},
-                    {"peak_at_m", kNumber},
-                    {"depth_m", kNumber},
-                    {"cause", kText}},
-                   {},
-                   line_style("what", kObstructionClass, 1.6)};
-  for (const Obstruction& o : report.obstructions) {
-    cuts.features.push_back({path.obstruction_line(o),
-                             {std::string(kObstructionClass[0].name), o.from_m, o.to_m, o.peak_at_m, o.depth_m,
-                              cause_of(report, o.theme, o.feature)}});
-  }
-  VectorLayer gaps{"gaps",
-                   Shape::kLines,
-                   {{"what", kText}, {"from_m", kNumber}, {"to_m", kNumber}},
-                   {},
-                   line_style("what", kGapClass, 1.6)};
-  for (const auto& [from, to] : report.profile.gaps)
-    gaps.features.push_back({path.ray_line(from, to), {std::string(kGapClass[0].name), from, to}});
-  return {line, ends, ground, cuts, gaps};
+  return {sight_line_layer(report), points_layer(report), ground_layer(report), obstructions_layer(report),
+          gaps_layer(report)};
 }
 
 }  // namespace itin::profile
