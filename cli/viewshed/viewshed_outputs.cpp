@@ -13,6 +13,7 @@
 #include <viewshed/qgis_styles.hpp>
 #include <viewshed/result_files.hpp>
 #include <viewshed/result_raster.hpp>
+#include <viewshed/result_sheet.hpp>
 
 #include "output/file_names.hpp"
 #include "program/call_files.hpp"
@@ -123,7 +124,9 @@ void ViewshedOutputs::write(const Store& store, viewshed::ViewshedWithSurface& c
     options.sources = context.sources;
     options.no_data = no_data;
     options.outside = kOutOfView;
-    options.foliage = context.foliage;
+    options.statement =
+        viewshed::statement_of(context.metadata, computed.result.request.themes, answered_detail(computed.result));
+    if (!context.foliage.empty()) options.facts.emplace_back("Foliage", context.foliage);
     options.title = title_of(computed.result) + (context.foliage.empty() ? "" : ", through foliage");
     options.crs_wkt = context.metadata.crs_wkt;
     if (context.missing.without_ground > 0) {

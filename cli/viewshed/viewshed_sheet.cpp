@@ -31,8 +31,7 @@ profile::TitleBlock title_of_map(const Store& store, const viewshed::Result& res
   const viewshed::Request& request = result.request;
   profile::TitleBlock block;
   block.title = title_of(result);
-  const Detail detail =
-      result.certified ? Detail::tolerance(0) : request.detail;  // a certain result holds for all points
+  const Detail detail = answered_detail(result);
   block.statement = viewshed::statement_of(store.metadata(), request.themes, detail);
   block.facts = {{"Observers", observers_in_words(request)},
                  {"Targets", fmt::format("{:g} m {}", request.target_height,

@@ -40,8 +40,12 @@ std::string title_of_mode(const viewshed::Result& result) {
 }  // namespace
 
 std::string title_of(const viewshed::Result& result) {
-  const double tolerance = result.certified ? 0 : result.request.detail.coarsest();
+  const double tolerance = answered_detail(result).coarsest();
   return title_of_mode(result) + (tolerance > 0 ? fmt::format(", at a tolerance of {:g} m", tolerance) : "");
+}
+
+Detail answered_detail(const viewshed::Result& result) {
+  return result.certified ? Detail::tolerance(0) : result.request.detail;
 }
 
 }  // namespace itin::cli

@@ -13,6 +13,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <itin/progress.hpp>
@@ -39,11 +40,12 @@ struct MapOptions {
   std::string outside = "Outside the field of view, or no data";
   std::vector<std::uint8_t> no_data = {};  ///< one per cell: 1 to stripe it as without ground; empty: none
   std::string no_data_text = "No ground data";
-  std::string beyond_text = {};           ///< what lies beyond the ground data; empty: nothing is said
-  std::string foliage = {};               ///< how woods are seen through; empty: nothing is said
-  std::vector<std::string> sources = {};  ///< where the data comes from
-  std::string crs_wkt = {};               ///< the CRS whose grid is marked; the National Grid is marked by its letters
-  int map_pixels = 1600;                  ///< the longer side of the map proper, 200 to 16000
+  std::string beyond_text = {};  ///< what lies beyond the ground data; empty: nothing is said
+  std::string statement = {};    ///< what the surface takes into account; empty: the subtitle takes its place
+  std::vector<std::pair<std::string, std::string>> facts = {};  ///< what else is said: name, value
+  std::vector<std::string> sources = {};                        ///< where the data comes from
+  std::string crs_wkt = {};  ///< the CRS whose grid is marked; the National Grid is marked by its letters
+  int map_pixels = 1600;     ///< the longer side of the map proper, 200 to 16000
 };
 
 /// 8-bit sRGB, row by row from the north-west.

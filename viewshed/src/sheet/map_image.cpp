@@ -60,7 +60,11 @@ profile::TitleBlock title_of(const Result& result, const MapOptions& options) {
   profile::TitleBlock title;
   title.title = options.title;
   title.statement = options.subtitle.empty() ? subtitle_of(result) : options.subtitle;
-  if (!options.foliage.empty()) title.facts.emplace_back("Foliage", options.foliage);
+  if (!options.statement.empty()) {
+    title.facts.emplace_back("View", title.statement);
+    title.statement = options.statement;
+  }
+  title.facts.insert(title.facts.end(), options.facts.begin(), options.facts.end());
   title.facts.emplace_back("Earth", result.request.earth.convention());
   if (!options.beyond_text.empty()) title.facts.emplace_back("Beyond the ground data", options.beyond_text);
   title.sources = options.sources;
