@@ -38,5 +38,12 @@ TEST(Significant, IsNearTheNumber) {
   }
 }
 
+TEST(Listed, JoinsWordsAsASentenceDoes) {
+  EXPECT_EQ(listed({}), "");
+  EXPECT_EQ(listed({"walls"}), "walls");
+  EXPECT_EQ(listed({"walls", "woods"}), "walls and woods");
+  EXPECT_EQ(listed({"buildings", "walls", "woods"}), "buildings, walls and woods");
+}
+
 }  // namespace
 }  // namespace itin

@@ -17,7 +17,7 @@ std::string small_losses_text(const LinkBudget& budget) {
   if (budget.gases_db) losses.push_back(fmt::format("{:.1f} dB lost to gases", *budget.gases_db));
   if (const double off = budget.from_off_axis_db + budget.to_off_axis_db; off != 0)
     losses.push_back(fmt::format("{:.1f} dB lost off the axes of antennas", off));
-  return losses.empty() ? "" : fmt::format(" with {}", fmt::join(losses, " and "));
+  return losses.empty() ? "" : fmt::format(" with {}", listed(losses));
 }
 
 std::string level_line(const LinkBudget& budget) {

@@ -166,7 +166,7 @@ std::string statement_of(const StoreMetadata& metadata, const ThemeChoice& theme
                         detail.coarsest());
   const std::string omitted = omitted_text(themes);
   return fmt::format("Screening by {} {}{} is taken into account; whatever else stands on the ground is not.",
-                     fmt::join(themes.names(metadata.themes), ", "), as, omitted.empty() ? "" : ", " + omitted + ",");
+                     listed(themes.names(metadata.themes)), as, omitted.empty() ? "" : ", " + omitted + ",");
 }
 
 std::pair<std::string, std::string> terrain_fact(const StoreMetadata& metadata, const Detail& detail) {

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <itin/counted.hpp>
 #include <itin/error.hpp>
 
 namespace itin {
@@ -101,11 +102,10 @@ void require_useful_options(const ImportOptions& options, std::span<const Source
   for (const SourceKind kind : sources) present |= only(kind);
   for (const Option& option : kOptions) {
     if (!option.given(options) || (option.serves & present)) continue;
-    throw InputError(
-        fmt::format("`{}`: does nothing {}, only for {}; leave it out", option.name,
-                    present == 0 ? "without a source" : fmt::format("for {}", fmt::join(titles_of(present), " and ")),
-                    fmt::join(titles_of(option.serves), ", ")),
-        std::string(option.name.substr(0, option.name.find(' '))));
+    throw InputError(fmt::format("`{}`: does nothing {}, only for {}; leave it out", option.name,
+                                 present == 0 ? "without a source" : fmt::format("for {}", listed(titles_of(present))),
+                                 fmt::join(titles_of(option.serves), ", ")),
+                     std::string(option.name.substr(0, option.name.find(' '))));
   }
 }
 

@@ -72,7 +72,7 @@ std::string datum_in_words(const std::vector<SourceInfo>& sources) {
     if (source.theme.empty() && !source.source_crs.empty())
       if (const std::string datum = height_axis(source.source_crs).datum; !datum.empty()) datums.insert(datum);
   if (datums.empty()) return "Heights are taken as metres above one vertical datum, which the sources do not name.";
-  return fmt::format("Heights are metres above {}.", fmt::join(datums, " and "));
+  return fmt::format("Heights are metres above {}.", listed({datums.begin(), datums.end()}));
 }
 
 std::string surface_in_words(const ZoneStudy& study) {
@@ -189,9 +189,7 @@ std::string others_in_words(const ZoneRequest& request) {
   add(turbines_with(kConsented, request), "consented");
   add(turbines_with(kExisting, request), "existing");
   add(rest, "other");
-  const std::string last = parts.back();
-  parts.pop_back();
-  return fmt::format("{}{}{} turbines", fmt::join(parts, ", "), parts.empty() ? "" : " and ", last);
+  return listed(parts) + " turbines";
 }
 
 std::string proposal_in_words(const ZoneRequest& request) {
