@@ -17,6 +17,7 @@
 #include "output/file_names.hpp"
 #include "program/call_files.hpp"
 #include "program/help.hpp"
+#include "viewshed/viewshed_radio.hpp"
 #include "viewshed/viewshed_title.hpp"
 
 namespace itin::cli {
@@ -125,6 +126,7 @@ void ViewshedOutputs::write(const Store& store, viewshed::ViewshedWithSurface& c
     options.outside = kOutOfView;
     options.title = title_of(computed.result) + (context.foliage.empty() ? "" : ", through foliage");
     options.crs_wkt = context.metadata.crs_wkt;
+    options.radio = radio_criterion(computed.result.request).value_or("");
     if (context.missing.without_ground > 0) {
       options.no_data_text = context.missing.key_text(kAreaLookedAt);
     } else if (context.missing.share() > 0) {

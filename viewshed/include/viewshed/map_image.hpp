@@ -39,6 +39,7 @@ struct MapOptions {
   std::string outside = "Outside the field of view, or no data";
   std::vector<std::uint8_t> no_data = {};  ///< one per cell: 1 to stripe it as without ground; empty: none
   std::string no_data_text = "No ground data";
+  std::string radio = {};                 ///< by what a map of radio judges cells; empty: nothing is said
   std::string beyond_text = {};           ///< what lies beyond the ground data; empty: nothing is said
   std::vector<std::string> sources = {};  ///< where the data comes from
   std::string crs_wkt = {};               ///< the CRS whose grid is marked; the National Grid is marked by its letters
