@@ -56,7 +56,7 @@ void DwellingsOptions::validate() {
   foliage_.validate();
   if (foliage_.given()) request_.foliage = {foliage_.foliage().extinction, foliage_.foliage().least_transmittance};
   earth_.validate();
-  sheets_.validate();
+  sheets_.validate(true);
   if (!sheets_of_text_.empty() && !sheets_.given()) throw InputError("--sheets-of works only with --sheets");
   std::istringstream names(sheets_of_text_);
   for (std::string name; std::getline(names, name, ',');) sheets_of_.push_back(name);

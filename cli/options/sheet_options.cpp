@@ -39,17 +39,28 @@ void SheetOptions::declare_title_block(CLI::App& app) {
   reads(app.add_option("--basemap", choice_.basemap,
                        "A georeferenced picture below these maps, in place of the shaded relief (.tif, ...)")
             ->type_name("FILE"));
+  add_names(app);
+}
+
+void SheetOptions::declare_names(CLI::App& app) {
+  begin_group(app, kMapsOnPaper);
+  add_names(app);
+}
+
+void SheetOptions::add_names(CLI::App& app) {
   app.add_option("--project", choice_.project, "The project's name in title blocks")->type_name("NAME");
   app.add_option("--date", choice_.date, "The date in title blocks (default: today, UTC)")->type_name("TEXT");
 }
 
-void SheetOptions::validate() {
+void SheetOptions::validate(bool names_unasked) {
   const bool alone = papers_option_ == "--paper" && file_.empty();
   if (alone && !papers_text_.empty()) throw InputError("--paper works only with --sheet");
   if (!file_.empty() && papers_text_.empty()) papers_text_ = "A3";
-  for (const auto& [option, text] : {std::pair("--basemap", &choice_.basemap), std::pair("--sheet-scale", &scale_text_),
-                                     std::pair("--project", &choice_.project), std::pair("--date", &choice_.date)})
-    if (!text->empty() && papers_text_.empty()) throw InputError(fmt::format("{} works only with a sheet", option));
+  const auto require_sheet = [&](const char* option, const std::string& text) {
+    if (!text.empty() && papers_text_.empty()) throw InputError(fmt::format("{} works only with a sheet", option));
+  };
+  require_sheet("--basemap", choice_.basemap), require_sheet("--sheet-scale", scale_text_);
+  if (!names_unasked) require_sheet("--project", choice_.project), require_sheet("--date", choice_.date);
   if (choice_.date.empty()) choice_.date = day_text(day_of_run());
   if (!file_.empty()) profile::require_sheet_format(file_);
   if (!scale_text_.empty()) choice_.scale = parse_number("--sheet-scale", scale_text_, Range::kPositive);
@@ -62,7 +73,6 @@ void SheetOptions::validate() {
 
 Document SheetOptions::parameters() const {
   Document parameters = Document::object();
-  if (!given()) return parameters;
   for (const profile::PaperSize paper : choice_.papers) parameters["sheets"].push_back(profile::name_of(paper));
   if (choice_.scale > 0) parameters["sheet_scale"] = choice_.scale;
   if (!choice_.basemap.empty()) parameters["basemap"] = choice_.basemap;

@@ -21,8 +21,10 @@ class SheetOptions {
                                   "sources, as PDF and PNG on A3, A1 or both (default: none)");
   /// Declares `--sheet` and `--paper`: one map in a file of its own.
   void declare_file(CLI::App& app);
-  /// Throws InputError.
-  void validate();
+  /// Declares `--project` and `--date` alone, for a map that is made unasked.
+  void declare_names(CLI::App& app);
+  /// Throws InputError. `names_unasked`: `--project` and `--date` are also those of a map that is made unasked.
+  void validate(bool names_unasked = false);
   bool given() const { return !choice_.papers.empty(); }
   Document parameters() const;
 
@@ -32,6 +34,7 @@ class SheetOptions {
 
  private:
   void declare_title_block(CLI::App& app);
+  void add_names(CLI::App& app);
 
   std::string file_, papers_option_, papers_text_, scale_text_;
   profile::SheetChoice choice_;

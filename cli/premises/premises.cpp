@@ -47,6 +47,7 @@ class PremisesVerb final : public Verb {
       return folder_document(*this, result);
     };
     files.overwrite = options_.policy.overwrite;
+    files.sheets = options_.sheets().choice();
     viewshed::write_premises(options_.directory, store, survey, files, call.step(1));
     call.finish();
     result.text = text(survey);

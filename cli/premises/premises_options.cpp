@@ -22,6 +22,7 @@ void PremisesOptions::declare(CLI::App& app) {
   begin_group(app, kOutputs);
   replaces(app.add_option("-o,--output", directory, "The folder to write")->type_name("DIR")->required());
   policy.declare(app);
+  sheets_.declare_names(app);
   declare_work(app);
 }
 
@@ -62,6 +63,7 @@ void PremisesOptions::declare_work(CLI::App& app) {
 void PremisesOptions::validate() {
   themes_.validate();
   earth_.validate();
+  sheets_.validate(true);
   request_.nodata = nodata_.rule();
   request_.memory_bytes = memory_.bytes().value_or(request_.memory_bytes);
   request_.masts_on_surface = parse_choice("--observer-on", observer_on_, {"ground", "surface"}) == 1;
@@ -131,6 +133,7 @@ Document PremisesOptions::parameters() const {
   if (request_.frequency_ghz) p["frequency_ghz"] = *request_.frequency_ghz, p["fresnel"] = request_.fresnel;
   p.update(themes_.parameters());
   p["nodata"] = nodata_.text();
+  p.update(sheets_.parameters());
   return p;
 }
 

@@ -15,6 +15,7 @@
 #include "options/in_crs.hpp"
 #include "options/memory_option.hpp"
 #include "options/nodata_option.hpp"
+#include "options/sheet_options.hpp"
 #include "options/surface_options.hpp"
 #include "output/output_path.hpp"
 #include "program/verb.hpp"
@@ -35,6 +36,7 @@ class PremisesOptions {
   /// Warns where refraction is that of light, and links are radio.
   void warn_of_light(std::vector<std::string>& warnings) const;
 
+  const SheetOptions& sheets() const { return sheets_; }
   std::uint64_t memory_bytes() const { return request_.memory_bytes; }
 
   std::string store, directory;
@@ -55,6 +57,7 @@ class PremisesOptions {
   EarthOptions earth_;
   NoDataOption nodata_;
   MemoryOption memory_;
+  SheetOptions sheets_;
   bool took_heights_ = false;  ///< whether heights come from the usual field, for which the call did not ask
   std::string mast_height_text_, observer_on_ = "ground", radius_text_;
   std::string setback_text_, frequency_text_, fresnel_text_;

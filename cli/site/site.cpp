@@ -170,7 +170,8 @@ class SiteVerb final : public Verb {
     result.document["outputs"] = viewshed::outputs_document(outputs_);
     write_site_plan(options_.directory, site, store, progress,
                     {.metadata = {{"itin", ITIN_VERSION}, {"parameters", json_text(parameters())}},
-                     .overwrite = policy_.overwrite});
+                     .overwrite = policy_.overwrite,
+                     .sheets = options_.sheets.choice()});
     const auto profiles = write_site_profiles(store, site, options_.path(kLinkFolder), policy_.overwrite, progress);
     for (const SiteProfile& profile : profiles)
       result.document["outputs"].push_back({{"path", profile.path}, {"what", "profile of the link " + profile.what}});

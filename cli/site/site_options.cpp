@@ -169,7 +169,7 @@ void SiteOptions::declare_work(CLI::App& app) {
 }
 
 void SiteOptions::validate() {
-  sheets.validate();
+  sheets.validate(demand == "premises");
   placement.validate();
   validate_candidates();
   validate_masts();

@@ -15,6 +15,7 @@
 #include <itin/sites.hpp>
 #include <itin/window_source.hpp>
 #include <profile/antenna_columns.hpp>
+#include <viewshed/sector_names.hpp>
 
 #include "options/off_the_data.hpp"
 
@@ -32,7 +33,7 @@ class RequestFiles {
     if (options_.search_area.empty()) {
       read_candidates();
     } else {
-      request_.search_area = area(options_.search_area);
+      read_search_area();
     }
     if (!options_.existing.empty()) read_existing();
     if (!options_.forbidden.empty()) request_.forbidden = area(options_.forbidden);
@@ -47,6 +48,14 @@ class RequestFiles {
  private:
   Window area(const std::string& wkt_or_file) const {
     return window_from_polygon(wkt_or_file, crs_, options_.in_crs.crs);
+  }
+
+  void read_search_area() {
+    const Window searched = area(options_.search_area);
+    if (!searched.bounds().meets(metadata_.grid.box(metadata_.bounds)))
+      require_on_the_data("--search-area: its first corner", searched.parts().front().outer.front(), options_.in_crs,
+                          metadata_);
+    request_.search_area = searched;
   }
 
   /// Returns a query about a file of the call.
@@ -126,20 +135,12 @@ class RequestFiles {
     places.places = std::move(joined);
   }
 
-  /// Returns what the names of a mast's sectors begin with, up to a blank or a mark: "Cwm" of "Cwm A" and "Cwm B".
-  /// Where they have no such beginning, the first sector's name is the mast's.
+  /// Returns what the names of a mast's sectors begin with, or else the name of the first.
   static std::string name_of_mast(const viewshed::SitePlace& mast) {
-    static constexpr const char* kMarks = " -_/.,:;(";
-    const std::string& first = mast.sectors.front().name;
-    std::size_t common = first.size();
-    for (const viewshed::SiteSector& sector : mast.sectors) {
-      const auto differs = std::ranges::mismatch(first, sector.name).in1;
-      common = std::min(common, static_cast<std::size_t>(differs - first.begin()));
-    }
-    if (common == first.size()) return first;
-    const std::size_t mark = first.substr(0, common).find_last_of(kMarks);
-    const std::size_t last = mark == std::string::npos ? mark : first.find_last_not_of(kMarks, mark);
-    return last == std::string::npos ? first : first.substr(0, last + 1);
+    std::vector<std::string> names;
+    for (const viewshed::SiteSector& sector : mast.sectors) names.push_back(sector.name);
+    const std::string beginning = viewshed::shared_beginning(names);
+    return beginning.empty() ? names.front() : beginning;
   }
 
   void read_candidates() {

@@ -18,6 +18,7 @@
 #include "output/file_names.hpp"
 #include "program/call_files.hpp"
 #include "program/help.hpp"
+#include "viewshed/viewshed_radio.hpp"
 #include "viewshed/viewshed_title.hpp"
 
 namespace itin::cli {
@@ -126,6 +127,7 @@ void ViewshedOutputs::write(const Store& store, viewshed::ViewshedWithSurface& c
     options.outside = kOutOfView;
     options.statement =
         viewshed::statement_of(context.metadata, computed.result.request.themes, answered_detail(computed.result));
+    if (const auto radio = radio_criterion(computed.result.request)) options.facts.emplace_back("Radio", *radio);
     if (!context.foliage.empty()) options.facts.emplace_back("Foliage", context.foliage);
     options.title = title_of(computed.result) + (context.foliage.empty() ? "" : ", through foliage");
     options.crs_wkt = context.metadata.crs_wkt;

@@ -1,5 +1,7 @@
 #include "viewshed/viewshed_radio.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include <itin/error.hpp>
@@ -31,6 +33,13 @@ std::string zone_text(const viewshed::Result& result) {
       result.request.fresnel.fraction, grouped(cells.visible),
       counted(decided, cells.undecided > 0 ? "decided cell" : "cell"), percent(cells.visible, decided),
       area(cells.visible), grouped(cells.zone_cut), percent(cells.zone_cut, decided), area(cells.zone_cut));
+}
+
+/// Tells whether observers have antennas of their own, as the sectors of a mast have.
+const char* own_antennas_text(const viewshed::Request& request) {
+  const bool own = std::any_of(request.observers.begin(), request.observers.end(),
+                               [](const viewshed::Observer& observer) { return !observer.antenna.empty(); });
+  return own ? "; observers with antennas, azimuths and tilts of their own" : "";
 }
 
 /// In how many cells the loss, or the level, is known, and why not in the others.
@@ -135,7 +144,7 @@ std::optional<std::string> radio_criterion(const viewshed::Request& request) {
     case viewshed::Mode::kLoss:
       return "ITU-R P.526, delta-Bullington";
     case viewshed::Mode::kLevel:
-      return profile::radios_text(request.budget) +
+      return profile::radios_text(request.budget) + own_antennas_text(request) +
              "; free space, diffraction (ITU-R P.526, delta-Bullington), gases (P.676)";
     default:
       return std::nullopt;

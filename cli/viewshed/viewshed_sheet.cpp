@@ -22,7 +22,7 @@ std::string observers_in_words(const viewshed::Request& request) {
   const bool alike = std::all_of(request.observers.begin(), request.observers.end(), [&](const viewshed::Observer& o) {
     return o.height == first.height && o.absolute == first.absolute;
   });
-  const std::string count = counted(request.observers.size(), "observer");
+  const std::string count = viewshed::counted_observers(request.observers);
   if (!alike) return count + " at heights of their own";
   return fmt::format("{}, {:g} m {}", count, first.height, first.absolute ? "above datum" : "above the ground");
 }
@@ -33,12 +33,12 @@ profile::TitleBlock title_of_map(const Store& store, const viewshed::Result& res
   block.title = title_of(result);
   const Detail detail = answered_detail(result);
   block.statement = viewshed::statement_of(store.metadata(), request.themes, detail);
-  block.facts = {{"Observers", observers_in_words(request)},
-                 {"Targets", fmt::format("{:g} m {}", request.target_height,
-                                         request.target_absolute ? "above datum" : "above the ground")},
-                 {"Cells", fmt::format("{:g} m, decided at their centres", result.grid.cell_width())}};
-  if (request.radius)
-    block.facts.insert(block.facts.begin() + 2, {"Radius", fmt::format("{:g} km", *request.radius / 1000)});
+  block.facts = {{"Observers", observers_in_words(request)}};
+  if (request.mode != viewshed::Mode::kHeight)
+    block.facts.emplace_back("Targets", fmt::format("{:g} m {}", request.target_height,
+                                                    request.target_absolute ? "above datum" : "above the ground"));
+  if (request.radius) block.facts.emplace_back("Radius", fmt::format("{:g} km", *request.radius / 1000));
+  block.facts.emplace_back("Cells", fmt::format("{:g} m, decided at their centres", result.grid.cell_width()));
   if (const auto criterion = radio_criterion(request)) block.facts.emplace_back("Radio", *criterion);
   if (!facts.foliage.empty()) block.facts.emplace_back("Foliage", facts.foliage);
   block.facts.emplace_back("Earth", request.earth.convention());
@@ -66,9 +66,7 @@ void write_viewshed_sheet(const Store& store, const viewshed::Result& result, co
       viewshed::missing_on_sheet(viewshed::places_without_ground(store, result, progress), facts.missing,
                                  kAreaLookedAt),
       kOutOfView};
-  std::vector<profile::SheetMark> observers;
-  for (const viewshed::Observer& o : result.request.observers) observers.push_back({o.position, o.name});
-  sheet.objects.push_back(viewshed::mast_objects(std::move(observers), "Observer"));
+  sheet.objects.push_back(viewshed::observer_objects(result.request.observers));
   write_file(options.file(),
              draw_result_sheet(store, sheet, options.papers().front(), options.choice(), options.file(), progress),
              overwrite);

@@ -1,12 +1,15 @@
 // What ground without data leaves undecided in zones of visibility, against a viewshed of each turbine and against the
 // rules that decide it.
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <random>
 #include <sstream>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <itin/tin_heights.hpp>
 #include <viewshed/turbines.hpp>
 #include <viewshed/zone_files.hpp>
 #include <viewshed/zone_maps.hpp>
@@ -189,17 +192,49 @@ TEST(ZoneUndecided, IsNothingWhereNoLineCrossesMissingGround) {
   EXPECT_EQ(zone.bare.tip_undecided[at(110)], kCountOutside);
 }
 
+/// Returns the label of a cell's class on the radar's map, from the limits that the legend states; empty outside.
+std::string class_by_limits(const Zone& zone, std::size_t cell) {
+  if (zone.bare.tip_count[cell] == kCountOutside) return "";
+  const RadarView& radar = *zone.radar;
+  const float seen = radar.height_m[cell];
+  if (seen == 0) return "the ground itself";
+  float from = 0;
+  for (const float to : {25.0F, 50.0F, 75.0F, 100.0F, 150.0F, 200.0F, 500.0F, 1000.0F}) {
+    if (seen <= to) return fmt::format("{:g} - {:g} m", from, to);
+    from = to;
+  }
+  const bool open = radar.leaves_open() && !std::isnan(radar.undecided_height_m[cell]);
+  return open ? "Undecided, across ground without data" : "None up to 1000 m";
+}
+
+/// Compares the radar's map with its heights, and returns how many classes it has cells of.
+std::size_t classes_on_map(const Zone& zone) {
+  const ZoneMap map = radar_map(zone).value();
+  std::map<std::string, std::uint64_t> cells;
+  for (std::size_t cell = 0; cell < map.class_of_cell.size(); ++cell) {
+    const std::uint8_t c = map.class_of_cell[cell];
+    const std::string label = c == kNoMapClass ? "" : map.classes[c].label;
+    EXPECT_EQ(label, class_by_limits(zone, cell)) << zone.radar->height_m[cell];
+    ++cells[label];
+  }
+  cells.erase("");
+  for (const ZoneMap::Class& c : map.classes) EXPECT_EQ(c.cells, cells[c.label]) << c.label;
+  return static_cast<std::size_t>(std::ranges::count_if(cells, [](const auto& c) { return c.second > 0; }));
+}
+
 /// What a radar may see behind missing ground is what it sees across clear ground, and not if that blocks.
 TEST(ZoneUndecided, HoldsWhatARadarMaySee) {
   std::mt19937 random(test::seed());
-  std::size_t open_cells = 0, open_turbines = 0;
+  std::size_t open_cells = 0, open_turbines = 0, classes = 0;
   for (int round = 0; round < 16; ++round) {
     const Tin tin = holed_hills(random);
     ZoneRequest request = farms_on(tin, random);
     request.cell_size = 80;
+    EXPECT_FALSE(radar_map(survey_under(NoData::kUnknown, tin, request)));
     request.radar = Observer{"radar", request.turbines.front().position, 15};
-    const RadarView unknown = *survey_under(NoData::kUnknown, tin, request).radar,
-                    block = *survey_under(NoData::kBlock, tin, request).radar,
+    const Zone zone = survey_under(NoData::kUnknown, tin, request);
+    classes = std::max(classes, classes_on_map(zone));
+    const RadarView unknown = *zone.radar, block = *survey_under(NoData::kBlock, tin, request).radar,
                     clear = *survey_under(NoData::kClear, tin, request).radar;
     test::expect_same(unknown.height_m, block.height_m);
     EXPECT_EQ(unknown.turbine_m, block.turbine_m);
@@ -222,6 +257,7 @@ TEST(ZoneUndecided, HoldsWhatARadarMaySee) {
   }
   EXPECT_GT(open_cells, 100U);
   EXPECT_GT(open_turbines, 0U);
+  EXPECT_GT(classes, 4U);
 }
 
 /// The rows of a table of `columns` cells each.

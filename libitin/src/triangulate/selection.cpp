@@ -106,6 +106,7 @@ Selection selection_of(const StoreMetadata& metadata, const Detail& detail, cons
 }
 
 void selected_leaves(const PointIndex& index, const Selection& selection, const GridBox& box, std::vector<Leaf>& out) {
+  if (box.empty()) return;
   const auto first = static_cast<std::ptrdiff_t>(out.size());
   index.leaves(selection.levels_in(box), box, out);
   const auto is_needless = [&](const Leaf& leaf) {

@@ -11,6 +11,8 @@ namespace itin::profile {
 
 namespace {
 
+/// The distance of a page's number from the lower edge: below the frame of a map, which fills its page.
+constexpr double kNumberAbove = 13;
 constexpr double kFactName = 76, kTitleRow = 16, kRow = 11.5, kNoteRow = 10,
                  kCellLine = 9.5;  ///< the distance of lines within a cell
 
@@ -38,7 +40,7 @@ void Pages::add_map(const MapSheet* map) {
 }
 
 void Pages::number() {
-  drawing_.text({kWidth - kMargin, kHeight - 16}, fmt::format("Page {} of {}", page_, count_),
+  drawing_.text({kWidth - kMargin, kHeight - kNumberAbove}, fmt::format("Page {} of {}", page_, count_),
                 {7.5, kReportGrey, Align::kRight, false, 0});
 }
 

@@ -59,8 +59,8 @@ class SightChart {
     drawing_.unclip();
     draw_axes();
     draw_object();
-    draw_masts();
     draw_critical();
+    draw_masts();
     draw_key();
   }
 

@@ -26,6 +26,11 @@ double grid_step(double points_per_metre) {
   return 100000;
 }
 
+/// The length of the grid's marks along the frame, where no contour has its label.
+double grid_tick(const Paper& paper) {
+  return 2 * kPointsPerMillimetre * paper.type;
+}
+
 Colour opaque(Rgba c) {
   c.alpha = 255;
   return drawn(c);
@@ -110,11 +115,13 @@ std::vector<Point2> MapFrame::label_places(const SheetLine& line) const {
 void MapFrame::label_line(const SheetLine& line, const Rgba& colour) {
   if (line.label.empty()) return;
   const Lettering lettering{.size = paper_.letters(6), .colour = opaque(colour), .align = Align::kCentre, .rim = 1.4};
-  const double half = drawing_.text_width(line.label, lettering) / 2 + 1, up = lettering.size / 2;
+  const double half = drawing_.text_width(line.label, lettering) / 2 + 1, up = lettering.size / 2,
+               tick = grid_tick(paper_);
+  const Box &frame = paper_.frame, within{frame.xmin + tick, frame.ymin + tick, frame.xmax - tick, frame.ymax - tick};
   for (const Point2& p : label_places(line)) {
     const Box box{p.x - half, p.y - up, p.x + half, p.y + up};
-    if (box.xmin < paper_.frame.xmin || box.xmax > paper_.frame.xmax || box.ymin < paper_.frame.ymin ||
-        box.ymax > paper_.frame.ymax || !places_.free(box))
+    if (!within.contains(Point2{box.xmin, box.ymin}) || !within.contains(Point2{box.xmax, box.ymax}) ||
+        !places_.free(box))
       continue;
     drawing_.text({p.x, p.y + 0.35 * lettering.size}, line.label, lettering);
     places_.take(box);
@@ -143,8 +150,7 @@ void MapFrame::label_marks(const SheetMarks& marks) {
 }
 
 void MapFrame::draw_grid(const std::string& crs_wkt) {
-  const double step = grid_step(scale_), tick = 2 * kPointsPerMillimetre * paper_.type,
-               arm = 1.2 * kPointsPerMillimetre * paper_.type;
+  const double step = grid_step(scale_), tick = grid_tick(paper_), arm = 1.2 * kPointsPerMillimetre * paper_.type;
   const Box& frame = paper_.frame;
   const Stroke fine{kGridInk, 0.35 * paper_.type, {}};
   const Lettering outside{.size = paper_.letters(5.5), .colour = kInk, .align = Align::kCentre};

@@ -179,6 +179,7 @@ struct DwellingsFileOptions {
   std::function<std::string(const std::vector<PlanFile>& files)> manifest = {};
   bool overwrite = false;
   /// A sheet for each dwelling, on these papers as PDF and PNG: a map, what its facades see, a calendar of its flicker.
+  /// The project and the date are those of dwellings.png as well, whether there are papers or none.
   profile::SheetChoice sheets = {};
   /// Only for these dwellings, by their names, ids or rows in dwellings.csv; empty: for all.
   std::vector<std::string> sheets_of = {};

@@ -29,6 +29,7 @@
 #include <itin/progress.hpp>
 #include <itin/store.hpp>
 #include <itin/theme.hpp>
+#include <profile/sheet_choice.hpp>
 #include <viewshed/result.hpp>
 #include <viewshed/site_coverage.hpp>
 #include <viewshed/site_plan.hpp>
@@ -177,6 +178,7 @@ struct PremisesFileOptions {
   /// Returns the text of premises.json, given the other files; empty: what json_of() returns, and the files.
   std::function<std::string(const std::vector<PlanFile>& files)> manifest = {};
   bool overwrite = false;
+  profile::SheetChoice sheets = {};  ///< premises.png has its project and its date
 };
 
 /// Writes premises.csv, links.csv, premises.gpkg, premises.png, facades.glb and, with a setback, roofs.csv into a

@@ -31,6 +31,7 @@
 #include <itin/theme.hpp>
 #include <itin/window.hpp>
 #include <profile/links.hpp>
+#include <profile/sheet_choice.hpp>
 #include <viewshed/demand.hpp>
 #include <viewshed/map_image.hpp>
 #include <viewshed/request.hpp>
@@ -403,6 +404,7 @@ std::vector<PlanFile> site_plan_files(const std::string& folder, const SitePlanR
 struct SitePlanFileOptions {
   std::vector<std::pair<std::string, std::string>> metadata = {};  ///< added to rasters
   bool overwrite = false;
+  profile::SheetChoice sheets = {};  ///< premises.png has its project and its date
 };
 
 /// Writes tables (CSV), layers (GeoPackage), rasters (GeoTIFF) and maps (PNG) into a folder, which is made where it is

@@ -27,8 +27,15 @@ struct MapObjects {
 };
 
 inline constexpr Rgba kMastColour{213, 94, 0, 255};
-/// Masts or eyes, as all maps mark them.
-MapObjects mast_objects(std::vector<profile::SheetMark> masts, std::string key);
+/// Masts or eyes, as all maps mark them. Those at one place, such as the sectors of a mast, share a mark and a label.
+MapObjects mast_objects(const std::vector<profile::SheetMark>& masts, std::string key);
+
+/// Tells whether an observer has a name that is more than its number.
+bool is_named(const Observer& observer);
+/// Returns "3 observers", or "18 observers at 6 places" where several are at one, as the sectors of a mast are.
+std::string counted_observers(const std::vector<Observer>& observers);
+/// The observers of a viewshed. A single one that is only a number has no label.
+MapObjects observer_objects(const std::vector<Observer>& observers, const std::string& key = "");
 
 /// The places where the map is striped as without ground, and what the legend says about them; both empty if there are
 /// none. `there` is called on any thread.
@@ -84,7 +91,7 @@ profile::MapSheet map_sheet(const Store& store, const ResultSheet& content, cons
 std::string draw_result_sheet(const Store& store, const ResultSheet& content, profile::PaperSize paper,
                               const profile::SheetChoice& choice, const std::string& name, Progress& progress);
 
-/// Draws the map as a picture over the relief, which fills the map's area, with a panel beside it as high as it needs.
-MapImage draw_result_picture(const Relief& ground, ResultSheet content, const std::string& crs_wkt);
+/// Draws the map as a picture over a base that fills the map's area, with a panel beside it as high as it needs.
+MapImage draw_result_picture(const MapBase& plain, ResultSheet content, const std::string& crs_wkt);
 
 }  // namespace itin::viewshed

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,7 +26,7 @@ struct ZoneMap {
   std::string name;          ///< as in the names of files: "tip-count-screened"
   std::string title;         ///< "Zone of theoretical visibility: blade tips"
   std::string heading;       ///< heads its legend
-  const char* seen = "tip";  ///< "tip", "hub", "proposal", "additional" or "farms"
+  const char* seen = "tip";  ///< "tip", "hub", "proposal", "additional" or "farms"; "radar": what a radar sees
   bool screened = false;     ///< whether features hide what is behind them
   std::string season = {};   ///< "summer" or "winter" where woods are seen through
   std::vector<Class> classes;
@@ -39,5 +40,10 @@ struct ZoneMap {
 /// certainly see nothing; where the zone leaves_open(), the last holds the cells of which that is undecided, but for
 /// seasons, of which nothing is undecided.
 std::vector<ZoneMap> zone_maps(const Zone& zone, std::size_t most_combinations = 12);
+
+/// Returns the map of the least heights that the radar sees in the study area; nothing without a radar. Its first class
+/// is of ground that is seen, and the next to last, or the last where nothing is undecided, of ground above which
+/// nothing is seen up to the greatest height that is told.
+std::optional<ZoneMap> radar_map(const Zone& zone);
 
 }  // namespace itin::viewshed

@@ -35,6 +35,9 @@ constexpr std::array<Rgba, 7> kPalette{
 /// The colour of targets below the ground on maps of heights.
 constexpr Rgba kBuriedColour{110, 75, 45};
 
+/// How cells are drawn whose value is not known, in modes that give every other cell one.
+constexpr Tint kUnknownTint{kUndecidedGrey, kOpacity};
+
 /// The opacity of step i of n, weak to strong.
 double opacity_of(int i, int n) {
   return n == 1 ? kOpacity : 0.25 + 0.6 * i / (n - 1);
@@ -90,6 +93,7 @@ MapOverlay::MapOverlay(const Result& result, const MapOptions& options) : result
 std::optional<Tint> MapOverlay::at(std::size_t cell) const {
   const Verdict seen = result_.visible[cell];
   if (seen == Verdict::kOutside) return std::nullopt;
+  if (lacks_values_ && std::isnan(value(cell))) return kUnknownTint;
   if (seen == Verdict::kUndecided) return Tint{kUndecidedColour, kOpacity};
   if (seen == Verdict::kZoneCut) return Tint{kZoneCutColour, kOpacity};
   if (steps_.empty()) return Tint{kSeenColour, seen == Verdict::kVisible ? kOpacity : 0};
@@ -346,10 +350,11 @@ void MapOverlay::make_keys(const MapOptions& options) {
   const CellCounts& cells = result_.cells;
   if (result_.request.mode == Mode::kLevel) add_margin_keys();
   if (!studies_paths(result_.request)) add_verdict_keys(options);
-  // Undecided cells have no value, either, but a key of their own.
-  if (const auto without = cells_without_value(result_); without && without->cells > cells.undecided)
-    add_key({}, fmt::format("No {} known", without->value), without->cells - cells.undecided);
-  if (cells.undecided > 0 || result_.certified)
+  // Undecided cells are among those without a value.
+  const std::optional<CellsWithoutValue> without = cells_without_value(result_);
+  lacks_values_ = without && without->cells > 0;
+  if (lacks_values_) add_key({kUnknownTint}, fmt::format("No {} known", without->value), without->cells);
+  if (!without && (cells.undecided > 0 || result_.certified))
     add_key({{kUndecidedColour, kOpacity}}, "Undecided", cells.undecided, options, &ClassShares::undecided);
 }
 

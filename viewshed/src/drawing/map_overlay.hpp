@@ -75,6 +75,7 @@ class MapOverlay {
   std::vector<double> most_;             ///< the greatest value of each step, ascending
   std::vector<std::uint32_t> blockers_;  ///< themes that hide, ascending
   std::vector<Step> steps_;
+  bool lacks_values_ = false;  ///< whether a cell in view has no value, where every other has one
   std::vector<Key> keys_;
 };
 

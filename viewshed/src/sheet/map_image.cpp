@@ -27,8 +27,7 @@ void require_possible(const MapOptions& options) {
 
 /// The name of an observer, where it has one that is more than its number, and its place.
 std::string observer_text(const Observer& observer) {
-  const bool named = observer.name.find_first_not_of("0123456789") != std::string::npos;
-  return fmt::format("{} at {:.10g}, {:.10g},", named ? observer.name : "Observer", observer.position.x,
+  return fmt::format("{} at {:.10g}, {:.10g},", is_named(observer) ? observer.name : "Observer", observer.position.x,
                      observer.position.y);
 }
 
@@ -38,7 +37,7 @@ std::string subtitle_of(const Result& result) {
   const bool alike = std::all_of(r.observers.begin(), r.observers.end(), [&](const Observer& o) {
     return o.height == first.height && o.absolute == first.absolute;
   });
-  std::string text = r.observers.size() == 1 ? observer_text(first) : fmt::format("{} observers", r.observers.size());
+  std::string text = r.observers.size() == 1 ? observer_text(first) : counted_observers(r.observers);
   const auto height = [](double metres, bool absolute) {
     return fmt::format("{} {:g} m {}", absolute ? " at" : "", metres, absolute ? "elevation" : "above ground");
   };
@@ -47,13 +46,6 @@ std::string subtitle_of(const Result& result) {
   if (r.radius) text += ", within " + length_text(*r.radius);
   text += fmt::format("; cells of {}", length_text(result.grid.cell_width()));
   return text;
-}
-
-MapObjects observers_of(const Result& result, const MapOptions& options) {
-  std::vector<profile::SheetMark> marks;
-  for (const Observer& observer : result.request.observers) marks.push_back({observer.position, observer.name});
-  const char* const several = marks.size() == 1 ? "Observer" : "Observers";
-  return mast_objects(std::move(marks), options.observers.empty() ? several : options.observers);
 }
 
 profile::TitleBlock title_of(const Result& result, const MapOptions& options) {
@@ -76,7 +68,7 @@ ResultSheet content_of(const Result& result, const MapOptions& options) {
   content.grid = result.grid, content.area = result.grid.bounds();
   content.map = result_map(result, options);
   content.studied = in_cells(result.grid, [&](std::size_t cell) { return result.visible[cell] != Verdict::kOutside; });
-  content.objects.push_back(observers_of(result, options));
+  content.objects.push_back(observer_objects(result.request.observers, options.observers));
   content.title = title_of(result, options);
   content.outside = options.outside;
   if (std::find(options.no_data.begin(), options.no_data.end(), 1) != options.no_data.end())
@@ -91,14 +83,18 @@ MapImage drawn_map(const HeightsOf& heights_of, const Result& result, const MapO
   require_possible(options);
   ResultSheet content = content_of(result, options);
   const RasterGrid pixels = filling_grid(content.area, options.map_pixels);
-  return draw_result_picture(hillshade(pixels, heights_of(pixels)), std::move(content), options.crs_wkt);
+  MapBase base = plain_base(hillshade(pixels, heights_of(pixels)));
+  // The surface is no larger than what was looked at.
+  if (!base.clear.empty()) base.clear = "Not looked at, or no terrain data";
+  return draw_result_picture(base, std::move(content), options.crs_wkt);
 }
 
 }  // namespace
 
-MapImage draw_result_picture(const Relief& ground, ResultSheet content, const std::string& crs_wkt) {
-  const int pixels = static_cast<int>(std::max(ground.pixels.columns(), ground.pixels.rows()));
-  const MapBase base = fitted(plain_base(ground), content, profile::void_stripe_pixels(pixels));
+MapImage draw_result_picture(const MapBase& plain, ResultSheet content, const std::string& crs_wkt) {
+  const RasterGrid& grid = plain.picture.grid;
+  const int pixels = static_cast<int>(std::max(grid.columns(), grid.rows()));
+  const MapBase base = fitted(plain, content, profile::void_stripe_pixels(pixels));
   profile::MapSheet sheet;
   sheet.area = content.area, sheet.crs_wkt = crs_wkt;
   sheet.legend = keys_of(base, content, content.area);

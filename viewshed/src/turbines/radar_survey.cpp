@@ -4,12 +4,11 @@
 
 #include <itin/grid_units.hpp>
 
+#include "turbines/value_bands.hpp"
+
 namespace itin::viewshed {
 
 namespace {
-
-/// Lines are tested up to this height above the ground, metres.
-constexpr double kRadarCeiling = 1000;
 
 Eye eye_of_radar(const Grid& units, std::optional<double> ground_m, const ZoneRequest& zone) {
   Request request;

@@ -134,6 +134,14 @@ std::vector<ValueBand> loss_bands() {
   return bands;
 }
 
+std::vector<ValueBand> radar_bands() {
+  std::vector<ValueBand> bands = limit_bands({25, 50, 75, 100, 150, 200, 500}, "m");
+  bands.front().label = "the ground itself";
+  bands.back() = {kRadarCeiling, fmt::format("500 - {:g} m", kRadarCeiling)};
+  for (std::size_t i = 0; i < bands.size(); ++i) bands[i].colour = darkening_colour(bands.size() - 1 - i, bands.size());
+  return bands;
+}
+
 std::vector<ValueBand> share_bands() {
   return limit_bands({0.01, 0.02, 0.05, 0.1, 0.2, 0.5}, "of the ground");
 }

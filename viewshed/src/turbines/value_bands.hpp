@@ -41,6 +41,10 @@ inline constexpr std::array<double, 6> kLevelLimitsDbm{-100, -90, -80, -70, -60,
 std::vector<ValueBand> level_bands(const Request& request);
 /// Limits of bands of least heights that are seen: those of usual masts; metres.
 inline constexpr std::array<double, 5> kMastHeightLimits{5, 10, 20, 30, 50};
+/// Heights above the ground up to which a radar's sight is told; metres.
+inline constexpr double kRadarCeiling = 1000;
+/// Returns the bands of least heights that a radar sees, the lowest the darkest. The first is of ground that it sees.
+std::vector<ValueBand> radar_bands();
 /// Returns the bands of shares of the ground, 0 to 1.
 std::vector<ValueBand> share_bands();
 /// Returns the band that holds a value: the first whose limit it does not exceed.

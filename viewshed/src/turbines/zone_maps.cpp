@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include <fmt/format.h>
@@ -140,6 +141,30 @@ std::vector<ZoneMap> zone_maps(const Zone& zone, std::size_t most_combinations) 
   };
   if (zone.seasons) add_both(zone.seasons->summer, "summer"), add_both(zone.seasons->winter, "winter");
   return maps;
+}
+
+std::optional<ZoneMap> radar_map(const Zone& zone) {
+  if (!zone.radar) return std::nullopt;
+  const RadarView& radar = *zone.radar;
+  const std::vector<ValueBand> bands = radar_bands();
+  ZoneMap map;
+  map.name = "radar-height", map.seen = "radar", map.title = "Least heights that the radar sees";
+  map.heading = "Least height above the ground that the radar sees";
+  for (const ValueBand& band : bands) map.classes.push_back({band.label, band.colour});
+  map.classes.push_back({fmt::format("None up to {:g} m", kRadarCeiling), kTransparent});
+  const auto none = static_cast<std::uint8_t>(bands.size()), undecided = static_cast<std::uint8_t>(none + 1);
+  if (radar.leaves_open()) map.classes.push_back({kUndecided, kUndecidedGrey, 0, 0, true});
+  const auto class_of = [&](std::size_t cell) -> std::uint8_t {
+    if (zone.bare.tip_count[cell] == kCountOutside) return kNoMapClass;
+    if (!std::isnan(radar.height_m[cell])) return static_cast<std::uint8_t>(band_of(bands, radar.height_m[cell]));
+    const bool open = radar.leaves_open() && !std::isnan(radar.undecided_height_m[cell]);
+    return open ? undecided : none;
+  };
+  for (std::size_t cell = 0; cell < radar.height_m.size(); ++cell) {
+    map.class_of_cell.push_back(class_of(cell));
+    if (map.class_of_cell.back() != kNoMapClass) ++map.classes[map.class_of_cell.back()].cells;
+  }
+  return map;
 }
 
 }  // namespace itin::viewshed

@@ -11,8 +11,7 @@ namespace itin::viewshed {
 std::vector<ZoneFile> write_radar_raster(const std::string& folder, const Zone& zone, const ZoneFileOptions& options) {
   RasterFolder files(folder, zone, options);
   const auto write = [&](const char* name, const std::string& what, const std::vector<float>& heights) {
-    files.write(name, what, heights, with_nodata(kNaN),
-                banded_style(limit_bands({25, 50, 75, 100, 150, 200, 500}, "m")));
+    files.write(name, what, heights, with_nodata(kNaN), banded_style(radar_bands()));
   };
   if (!zone.radar) return {};
   const bool open = zone.radar->leaves_open();

@@ -54,6 +54,7 @@ class Premises(Task):
             advanced=True,
             help="Adds roofs.csv: how high poles must be to see the street",
         ),
+        *shared.TITLE_BLOCK,
         shared.OBSERVER_ON,
         shared.NODATA,
         shared.CURVATURE,

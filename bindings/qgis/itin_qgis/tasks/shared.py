@@ -111,11 +111,14 @@ OVERWRITE = Flag(
 )
 LOAD_RESULTS = Flag(LOAD, "Show the results as layers, in a group", default=True)
 
+TITLE_BLOCK = (
+    Text("PROJECT", "Project, for title blocks", "--project", advanced=True),
+    Text("DATE", "Date, for title blocks", "--date", advanced=True, help="Left blank: today"),
+)
 _OF_MAPS = (
     Number("SHEET_SCALE", "Scale of maps on paper: 1 to", "--sheet-scale", minimum=1, advanced=True),
     Raster("BASEMAP", "Picture below maps on paper", "--basemap", advanced=True),
-    Text("PROJECT", "Project, for title blocks", "--project", advanced=True),
-    Text("DATE", "Date, for title blocks", "--date", advanced=True, help="Left blank: today"),
+    *TITLE_BLOCK,
 )
 PAPER_MAP = (
     FileOutput("SHEET", "Map on paper", "--sheet", filter="PDF files (*.pdf);;PNG files (*.png)", advanced=True),

@@ -53,10 +53,9 @@ std::string radar_methods(const ZoneStudy& study) {
       "the "
       "ground that it sees over bare ground, with curvature and refraction as stated; for each turbine is told how "
       "many "
-      "metres of it rise above the radar's horizon. The heights are exact for the surface; between the terrain's "
-      "points "
-      "they depend on its triangles.",
-      place.position.x, place.position.y, place.height, radar.ground_m);
+      "metres of it rise above the radar's horizon. It sees {}. The heights are exact for the surface; between the "
+      "terrain's points they depend on its triangles.",
+      place.position.x, place.position.y, place.height, radar.ground_m, turbines_of_radar(study.zone));
   if (radar.leaves_open())
     text += fmt::format(
         " Where ground without data alone could hide something from the radar, it is undecided whether that is seen: "
@@ -79,6 +78,13 @@ std::string link_methods(const ZoneStudy& study) {
 }
 
 }  // namespace
+
+std::string turbines_of_radar(const Zone& zone) {
+  const std::size_t undecided = seen_in(zone.radar->undecided_turbine_m);
+  return fmt::format("{} of {}, at least in part{}", seen_in(zone.radar->turbine_m),
+                     counted(zone.request.turbines.size(), "turbine"),
+                     undecided == 0 ? "" : fmt::format("; {} more undecided", undecided));
+}
 
 LinkStudy exclusion_of(const ZoneStudy& study) {
   LinkStudy links{radio_links(study.request.links), study.request.frequency_ghz, 0};

@@ -29,6 +29,8 @@ std::vector<ZoneFile> write_radio_rasters(const std::string& folder, const ZoneS
 /// Adds to the columns of the table of turbines. The study must outlive them.
 void add_radio_columns(const ZoneStudy& study, std::vector<TableColumn<TurbineRow>>& columns);
 
+/// Returns how many turbines the zone's radar sees: "9 of 12 turbines, at least in part".
+std::string turbines_of_radar(const Zone& zone);
 /// Returns how many turbines are concerned; empty where there are neither links nor a radar.
 Document radio_document(const ZoneStudy& study);
 /// Returns paragraphs for the text on methods.

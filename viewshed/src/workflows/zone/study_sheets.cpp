@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -15,6 +16,8 @@
 #include <viewshed/result_sheet.hpp>
 #include <viewshed/zone_files.hpp>
 #include <viewshed/zone_maps.hpp>
+
+#include "workflows/zone/study_radio.hpp"
 
 namespace itin::viewshed {
 
@@ -136,6 +139,23 @@ bool shows_hubs(const ZoneMap& map) {
   return std::string_view(map.seen) == "hub";
 }
 
+bool shows_radar(const ZoneMap& map) {
+  return std::string_view(map.seen) == "radar";
+}
+
+std::pair<std::string, std::string> observer_fact(const Zone& zone) {
+  return {"Observer", fmt::format("eyes {:g} m above the ground at the centre of cells of {:g} m",
+                                  zone.request.observer_height, zone.grid.cell_width())};
+}
+
+std::pair<std::string, std::string> radar_fact(const Zone& zone) {
+  const Observer& radar = *zone.request.radar;
+  return {"Radar", fmt::format("{:g} m above its ground of {:.1f} m, at {:.0f}, {:.0f}; it sees {}; heights at the "
+                               "centres of cells of {:g} m",
+                               radar.height, zone.radar->ground_m, radar.position.x, radar.position.y,
+                               turbines_of_radar(zone), zone.grid.cell_width())};
+}
+
 std::string hub_heights_in_words(const Zone& zone) {
   const std::string known = of_known_hubs(zone);
   return known.empty() ? "" : fmt::format("; hubs{}, those of the others are not known", known);
@@ -167,8 +187,7 @@ profile::TitleBlock title_block(const ZoneStudy& study, const ZoneMap& map) {
   if (!map.screened) block.statement += " What is shown as visible may be hidden by them.";
   block.facts = {{"Turbines", heights_in_words(zone) + (shows_hubs(map) ? hub_heights_in_words(zone) : "")},
                  {"Study area", radii_in_words(zone) + without_terrain_in_words(study.missing)},
-                 {"Observer", fmt::format("eyes {:g} m above the ground at the centre of cells of {:g} m",
-                                          zone.request.observer_height, zone.grid.cell_width())},
+                 shows_radar(map) ? radar_fact(zone) : observer_fact(zone),
                  {"Earth", zone.request.earth.curvature
                                ? "curvature and refraction are taken into account, " + zone.request.earth.convention()
                                : "flat; curvature and refraction are not taken into account"},
@@ -188,7 +207,8 @@ std::vector<ZoneFile> write_study_sheets(const std::string& folder, const Store&
                                          Progress& progress) {
   const Zone& zone = study.zone;
   std::vector<ZoneFile> files;
-  const std::vector<ZoneMap> maps = zone_maps(zone);
+  std::vector<ZoneMap> maps = zone_maps(zone);
+  if (std::optional<ZoneMap> radar = radar_map(zone)) maps.push_back(std::move(*radar));
   const std::vector<Turbine> own = turbines_of_study_area(zone.request);
   const MissingOnSheet missing = missing_on_sheet(places_without_ground(zone), study.missing, "the study area");
   const auto content_of = [&](const ZoneMap& map) {

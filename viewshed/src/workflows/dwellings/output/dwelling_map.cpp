@@ -92,11 +92,12 @@ profile::TitleBlock title_of_dwellings(const Store& store, const DwellingsSurvey
 
 }  // namespace
 
-std::string dwelling_map(const Store& store, const DwellingsSurvey& survey, const std::string& name,
-                         Progress& progress) {
+std::string dwelling_map(const Store& store, const DwellingsSurvey& survey, const profile::SheetChoice& sheets,
+                         const std::string& name, Progress& progress) {
   const Box shown = box_of_dwellings(survey);
   const ResultSheet sheet = object_sheet(shown, dwelling_objects(survey), title_of_dwellings(store, survey, shown));
-  return draw_result_sheet(store, sheet, profile::PaperSize::kA3, {}, name, progress);
+  const profile::SheetChoice choice{.project = sheets.project, .date = sheets.date};
+  return draw_result_sheet(store, sheet, profile::PaperSize::kA3, choice, name, progress);
 }
 
 }  // namespace itin::viewshed

@@ -62,7 +62,8 @@ std::vector<PlanFile> write_dwellings(const std::string& folder, const Store& st
   const CalendarMaker calendars(survey, call);
   write_file(path("calendar.png"), profile::draw_flicker_calendar(calendars.of_all(), "calendar.png"), true);
   const double share_of_sheets = options.sheets.papers.empty() ? 0 : 0.7;
-  write_file(path("dwellings.png"), dwelling_map(store, survey, "dwellings.png", call.step(1 - share_of_sheets)), true);
+  write_file(path("dwellings.png"),
+             dwelling_map(store, survey, options.sheets, "dwellings.png", call.step(1 - share_of_sheets)), true);
   const std::vector<PlanFile> sheets =
       write_dwelling_sheets(target.working(), store, survey, calendars, options, call.step(1));
   std::vector<PlanFile> files = dwellings_files(survey.request);

@@ -54,7 +54,7 @@ std::vector<MapObjects> premises_objects(const PremisesSurvey& survey) {
     objects.push_back(walls_of(survey, service));
   std::vector<profile::SheetMark> masts;
   for (const SitePosition& mast : survey.masts) masts.push_back({mast.position, mast.name});
-  objects.push_back(mast_objects(std::move(masts), "Mast"));
+  objects.push_back(mast_objects(masts, "Mast"));
   return objects;
 }
 
@@ -89,11 +89,12 @@ profile::TitleBlock title_of_premises(const Store& store, const PremisesSurvey& 
 
 }  // namespace
 
-std::string premises_map(const Store& store, const PremisesSurvey& survey, const std::string& name,
-                         Progress& progress) {
+std::string premises_map(const Store& store, const PremisesSurvey& survey, const profile::SheetChoice& sheets,
+                         const std::string& name, Progress& progress) {
   const Box shown = shown_box(survey);
   const ResultSheet sheet = object_sheet(shown, premises_objects(survey), title_of_premises(store, survey, shown));
-  return draw_result_sheet(store, sheet, profile::PaperSize::kA3, {}, name, progress);
+  const profile::SheetChoice choice{.project = sheets.project, .date = sheets.date};
+  return draw_result_sheet(store, sheet, profile::PaperSize::kA3, choice, name, progress);
 }
 
 }  // namespace itin::viewshed

@@ -9,7 +9,9 @@
 
 namespace itin::viewshed {
 
-/// Returns the bytes of a .png or .pdf, by the ending of `name`. Throws Cancelled.
-std::string premises_map(const Store& store, const PremisesSurvey& survey, const std::string& name, Progress& progress);
+/// Returns the bytes of a .png or .pdf, by the ending of `name`. The title block has the project and the date of
+/// `sheets`. Throws Cancelled.
+std::string premises_map(const Store& store, const PremisesSurvey& survey, const profile::SheetChoice& sheets,
+                         const std::string& name, Progress& progress);
 
 }  // namespace itin::viewshed

@@ -54,7 +54,7 @@ std::vector<PlanFile> write_premises(const std::string& folder, const Store& sto
   call.step(0.3).report("layers", 0);
   write_geopackage(path("premises.gpkg"), survey.metadata.crs_wkt, premises_layers(survey), true, call);
   write_meshes(path("facades.glb"), survey.metadata.crs_wkt, facade_meshes(survey), true, call.step(0.1));
-  write_file(path("premises.png"), premises_map(store, survey, "premises.png", call.step(1)), true);
+  write_file(path("premises.png"), premises_map(store, survey, options.sheets, "premises.png", call.step(1)), true);
   std::vector<PlanFile> files = premises_files(folder, survey.request);
   write_file(path(kPremisesManifest),
              options.manifest ? options.manifest(files) : manifest_text(premises_document(survey), files), true);

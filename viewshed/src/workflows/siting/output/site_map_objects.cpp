@@ -107,6 +107,15 @@ MapObjects marks_of_sites(const SiteNetwork& network, SheetSymbol symbol, const 
   return {{std::move(marks)}, {{Sample::kMark, {colour}, what, symbol}}};
 }
 
+/// Returns the box about the part of the search area that has ground, where all candidates are.
+Box searched_box(const SitePlan& r) {
+  Box candidates;
+  for (const SiteCandidate& candidate : r.inputs.candidates) candidates.extend(candidate.place.position);
+  const double about = r.request.spacing;
+  candidates = {candidates.xmin - about, candidates.ymin - about, candidates.xmax + about, candidates.ymax + about};
+  return intersection(candidates, r.request.search_area->bounds());
+}
+
 bool has_no_object(const MapObjects& objects) {
   const profile::SheetLayer& layer = objects.layers.front();
   if (const auto* lines = std::get_if<profile::SheetLines>(&layer)) return lines->lines.empty();
@@ -123,6 +132,7 @@ Box shown_area(const SitePlan& r) {
     area.extend(Point2{p.x - about, p.y - about});
     area.extend(Point2{p.x + about, p.y + about});
   }
+  if (r.request.search_area) area.extend(searched_box(r));
   return area;
 }
 

@@ -144,10 +144,9 @@ std::vector<MapImage> drawn(const Store& store, const SitePlan& plan, const std:
   constexpr int kPixels = 1100;
   progress.report("maps", 0);
   const RasterGrid pixels = filling_grid(maps.front().sheet.area, kPixels);
-  const Relief ground = hillshade(pixels, heights_at(hillshade_surface(store, pixels, progress), pixels));
+  const MapBase base = plain_base(hillshade(pixels, heights_at(hillshade_surface(store, pixels, progress), pixels)));
   std::vector<MapImage> images(maps.size());
-  parallel_for(maps.size(),
-               [&](std::size_t i) { images[i] = draw_result_picture(ground, maps[i].sheet, plan.crs_wkt); });
+  parallel_for(maps.size(), [&](std::size_t i) { images[i] = draw_result_picture(base, maps[i].sheet, plan.crs_wkt); });
   return images;
 }
 

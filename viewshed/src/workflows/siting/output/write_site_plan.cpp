@@ -131,12 +131,13 @@ void write_maps(const std::string& folder, const SitePlan& plan, const Store& st
 
 /// Writes which site serves which building, in the words and colours of a survey of premises.
 void write_premises_of_plan(const std::string& folder, const SitePlan& plan, const Store& store, Progress& progress,
-                            bool overwrite) {
+                            const SitePlanFileOptions& options) {
   if (!plan.premises) return;
   const PremisesSurvey& survey = *plan.premises;
-  write_file(within(folder, "premises.csv"), premises_csv(survey), overwrite);
-  write_geopackage(within(folder, "premises.gpkg"), plan.crs_wkt, premises_layers(survey), overwrite, progress);
-  write_file(within(folder, "premises.png"), premises_map(store, survey, "premises.png", progress), overwrite);
+  write_file(within(folder, "premises.csv"), premises_csv(survey), options.overwrite);
+  write_geopackage(within(folder, "premises.gpkg"), plan.crs_wkt, premises_layers(survey), options.overwrite, progress);
+  write_file(within(folder, "premises.png"), premises_map(store, survey, options.sheets, "premises.png", progress),
+             options.overwrite);
 }
 
 }  // namespace
@@ -195,7 +196,7 @@ std::vector<PlanFile> write_site_plan(const std::string& folder, const SitePlan&
   write_rasters(folder, plan, store, options, progress);
   write_tables(folder, plan, options.overwrite);
   write_layers(folder, plan, options.overwrite);
-  write_premises_of_plan(folder, plan, store, progress, options.overwrite);
+  write_premises_of_plan(folder, plan, store, progress, options);
   return files;
 }
 
