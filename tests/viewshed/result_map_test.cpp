@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <itin/counted.hpp>
 #include <viewshed/result_map.hpp>
 
 #include "support/terrain_tin.hpp"
@@ -105,8 +106,7 @@ TEST(ResultMap, SmallAreasAreInSquareMetres) {
   NoProgress progress;
   const Result result = compute(test::fractal_tin(65, 50, 200, 0.5, 9), request, progress);
   const auto area = static_cast<std::uint64_t>(result.grid.cell_area()) * result.cells.visible;
-  EXPECT_THAT(result_map(result, {}).keys.front().text,
-              testing::StartsWith("Visible: " + std::to_string(area) + " m² ("));
+  EXPECT_THAT(result_map(result, {}).keys.front().text, testing::StartsWith("Visible: " + grouped(area) + " m² ("));
 }
 
 }  // namespace
