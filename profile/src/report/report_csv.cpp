@@ -48,7 +48,7 @@ char seen_beyond(NoData rule) {
   return rule == NoData::kUnknown ? '2' : rule == NoData::kBlock ? '0' : '1';
 }
 
-std::vector<PathPoint> points_of(const LosReport& report) {
+std::vector<PathPoint> rows_of_path(const LosReport& report) {
   std::optional<CoordinateTransform> to_geographic;
   if (!report.crs_wkt.empty()) to_geographic.emplace(report.crs_wkt, body_of(report.crs_wkt).geographic_crs);
   const double length = report.profile.length_m, drop = report.query.earth.drop_coefficient();
@@ -103,7 +103,7 @@ std::vector<TableColumn<PathPoint>> columns_of(const LosReport& report) {
 }  // namespace
 
 std::string report_csv(const LosReport& report) {
-  return csv_of(columns_of(report), points_of(report));
+  return csv_of(columns_of(report), rows_of_path(report));
 }
 
 }  // namespace itin::profile

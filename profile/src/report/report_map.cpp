@@ -117,7 +117,7 @@ struct PointOfPath {
   std::string what;
   std::string name;
   double distance_m;
-  std::optional<double> height_m;  ///< of an end above what it stands on
+  std::optional<double> height_m;  ///< an end's height above what it stands on
   Point3 place;
 };
 /// The ends, the critical point, the point of reflection, and the edges of the losses.
