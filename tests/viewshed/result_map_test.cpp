@@ -1,8 +1,11 @@
 // Every colour of a map has a row of its own in the legend.
+#include <algorithm>
+#include <cmath>
 #include <gmock/gmock.h>
 #include <set>
 #include <string>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <itin/counted.hpp>
@@ -97,6 +100,38 @@ TEST(ResultMap, TargetsBelowTheGroundAreAClassOfHeights) {
   EXPECT_GT(seen.size(), 1U);
   EXPECT_EQ(numbers_of(s.map.keys[0].colours), seen);
   EXPECT_EQ(numbers_of(s.map.keys[1].colours), hidden);
+}
+
+/// Cells without a value, undecided ones among them, look as none of the others do, and the legend counts them.
+TEST(ResultMap, CellsWithoutAValueAreAClassOfTheirOwn) {
+  for (const Mode mode : {Mode::kHeight, Mode::kLoss, Mode::kLevel}) {
+    SurveyedMap s = surveyed_map(Mode::kHeight);
+    Result& result = s.result;
+    std::vector<float> values = result.get<LeastHeights>().height_m;
+    for (std::size_t i = 0; i < 400; ++i) values[i] = std::nanf("");
+    for (std::size_t i = 0; i < 100; ++i) result.visible[i] = Verdict::kUndecided;
+    result.cells = {};
+    for (const Verdict verdict : result.visible) {
+      std::uint64_t* const counts[] = {&result.cells.hidden, &result.cells.visible, &result.cells.undecided};
+      if (const auto v = static_cast<std::size_t>(verdict); v < std::size(counts)) ++*counts[v];
+    }
+    result.request.mode = mode;
+    result.request.budget.sensitivity_dbm = 30;
+    if (mode == Mode::kHeight) result.values = LeastHeights{values};
+    if (mode == Mode::kLoss) result.values = Losses{values, {}};
+    if (mode == Mode::kLevel) result.values = Levels{values, {}, {}};
+    const ResultMap map = result_map(result, {});
+    const auto key = std::ranges::find_if(map.keys, [](const ResultMap::Key& k) {
+      return k.text.starts_with("No ") && k.text.find(" known: ") != std::string::npos;
+    });
+    ASSERT_NE(key, map.keys.end());
+    EXPECT_THAT(key->text, testing::HasSubstr(fmt::format("({:.1f} %)", 100.0 * 400 / result.cells.in_view())));
+    std::set<std::uint32_t> without, others;
+    for (std::size_t i = 0; i < map.cells.size(); ++i) (i < 400 ? without : others).insert(number_of(map.cells[i]));
+    EXPECT_EQ(without, numbers_of(key->colours));
+    for (const std::uint32_t colour : without) EXPECT_FALSE(others.contains(colour));
+    for (const ResultMap::Key& k : map.keys) EXPECT_FALSE(k.text.starts_with("Undecided")) << k.text;
+  }
 }
 
 TEST(ResultMap, SmallAreasAreInSquareMetres) {

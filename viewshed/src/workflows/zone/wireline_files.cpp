@@ -287,7 +287,7 @@ profile::Wireline of_one_farm(profile::Wireline view, const std::string& farm) {
 profile::MapSheet location_map(const Store& store, const Zone& zone, const Viewpoint& v,
                                const std::vector<TurbineSight>& sights, const std::string& basemap,
                                Progress& progress) {
-  const SightSummary seen = seen_of(zone, sights, all_turbines(zone));
+  const SightSummary seen = seen_of(zone, sights, turbines_of_interest(zone));
   const Turbine& nearest = zone.request.turbines[seen.nearest];
   profile::MapSheet sheet;
   sheet.paper = profile::PaperSize::kA3;
