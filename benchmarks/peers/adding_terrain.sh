@@ -27,7 +27,7 @@ for side in "${sides[@]}"; do
   cut_out "$first_column" "$first_row" "$side" "$side" base.tif
   cut_out $((first_column + side)) $((first_row + side / 2)) "$tile" "$tile" tile.tif
   rm -f base.itin anew.itin
-  "$itin" import --quiet base.itin base.tif >/dev/null
+  "$itin" import --quiet base.itin base.tif
   measure "both anew, $side" "$itin" import --quiet anew.itin base.tif tile.tif
   measure "the tile comes, $side" "$itin" import --quiet base.itin tile.tif
   [ "$(digest base.itin)" = "$(digest anew.itin)" ] || { echo "the two stores are not equal" >&2; exit 1; }

@@ -30,18 +30,6 @@ std::vector<Leaf> leaves_about(const WorkingIndex& index, const GridBox& box) {
   return leaves;
 }
 
-/// Returns the lattice with equal steps that most points at the leaves are posts of. A leaf with a single column or row
-/// of posts, as at a raster's end, does not know both steps, and has no vote where others have one.
-std::optional<PostLattice> square_lattice(const WorkingIndex& index, std::vector<Leaf> leaves) {
-  const auto is_square = [](const PostLattice& lattice) { return lattice.step_x == lattice.step_y; };
-  auto lattice = prevailing_lattice(index, leaves, index.bounds());
-  if (lattice && !is_square(*lattice)) {
-    std::erase_if(leaves, [&](const Leaf& leaf) { return !is_square(index.lattice_of(leaf)); });
-    lattice = prevailing_lattice(index, leaves, index.bounds());
-  }
-  return lattice;
-}
-
 /// Adds the differences of a row's posts from a plane: `times` its height at post u is `at_0` + u `rise`.
 void compare(const std::int32_t* row, std::int32_t base, std::int32_t from, std::int32_t to, std::int32_t at_0,
              std::int32_t rise, SquareDifference& difference) {
@@ -86,8 +74,8 @@ std::optional<PostWindow> PostWindow::about(const WorkingIndex& index, const Cur
 /// Returns whether the box has a lattice that its points may fill.
 bool PostWindow::find_blocks(const WorkingIndex& index, const GridBox& box, std::int64_t points) {
   if (box.empty()) return false;
-  const auto lattice = square_lattice(index, leaves_about(index, box));
-  if (!lattice) return false;
+  const auto lattice = prevailing_lattice(index, leaves_about(index, box), index.bounds());
+  if (!lattice || lattice->step_x != lattice->step_y) return false;
   lattice_ = lattice->from_first_place();
   const std::int64_t side = kBlockSide * lattice_.step_x;
   const auto block = [&](std::int64_t v, std::int64_t origin) { return floor_divide(v - origin, side); };

@@ -23,7 +23,7 @@ struct Proposal {
 /// How far a tile's proposed levels depend on others: on the tiles that it reaches or that reach it (reach_of()), so
 /// many times over. The first time is for a tile of the second wave, which raises points of the tile; the second for
 /// one of the first wave, whose levels that one starts from; the third for one whose points that one sees. The fine
-/// levels of posts there depend on PostHierarchy::kReach posts more, and on the work cells that meet their blocks.
+/// levels of posts there depend on PostHierarchy::kReach posts more.
 inline constexpr int kReachesOfProposal = 3;
 
 /// Writes the levels that the points should have, as far as one tile can tell; certify.hpp has the last word.
