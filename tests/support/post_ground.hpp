@@ -1,7 +1,6 @@
 // Grounds of posts at random for tests of levels, and an index over them.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
@@ -9,9 +8,6 @@
 #include <vector>
 
 #include "geometry/post_lattice.hpp"
-#include "geometry/right_hierarchy.hpp"
-#include "geometry/whole_division.hpp"
-#include "pyramid/post_hierarchy.hpp"
 #include "support/points.hpp"
 
 namespace itin::test {
@@ -43,15 +39,13 @@ inline PostGround random_ground(unsigned seed, int columns = 0) {
   if (columns > 0) ground.columns = columns;
   ground.first = {draw(-200, 200), draw(-200, 200)};
   const double scale = draw(20, 200) / 10.0;
-  const bool smooth_in_the_west = draw(0, 1) == 0;
   const int rough = draw(0, 60), gaps = std::array{0, 1, 40}[static_cast<std::size_t>(draw(0, 2))];
   for (std::int64_t r = ground.first.row; r <= ground.north(); ++r) {
     for (std::int64_t c = ground.first.column; c <= ground.east(); ++c) {
       const double hill =
           400 * std::sin(static_cast<double>(c) / scale) * std::cos(static_cast<double>(r) / scale / 1.3);
-      const bool flat = c % 50 < 20, smooth = smooth_in_the_west && c - ground.first.column < ground.columns / 2;
-      if (draw(0, 999) >= gaps)
-        ground.heights[ground.at(c, r)] = static_cast<int>(flat ? 7 : hill) + draw(0, smooth ? rough / 8 : rough);
+      const bool flat = c % 50 < 20;
+      if (draw(0, 999) >= gaps) ground.heights[ground.at(c, r)] = static_cast<int>(flat ? 7 : hill) + draw(0, rough);
     }
   }
   const auto anywhere = [&] {
@@ -78,26 +72,6 @@ inline TestIndex index_of(const PostGround& ground) {
   TestIndex index(points, static_cast<int>(kHierarchyTolerances.size()), 64);
   index->set_segments(ground.lines);
   return index;
-}
-
-/// The box of all blocks of posts that meet a box.
-inline GridBox blocks_about(const PostGround& ground, const GridBox& box) {
-  const std::int64_t side = std::int64_t{kBlockSide} * ground.step;
-  const auto first = [&](std::int64_t v) { return static_cast<std::int32_t>(floor_divide(v - 1, side) * side); };
-  const auto last = [&](std::int64_t v) { return static_cast<std::int32_t>((floor_divide(v, side) + 1) * side); };
-  return {first(box.xmin), first(box.ymin), last(box.xmax), last(box.ymax)};
-}
-
-/// Tells whether levels of the hierarchy in this box may follow from the heights west of an easting: from those within
-/// its reach, or by the choice of fine levels in work cells that these reach.
-inline bool may_follow_from(std::int64_t easting, const GridBox& box, const PostGround& ground,
-                            const std::vector<CurveRange>& tiles) {
-  const std::int64_t end = easting + PostHierarchy::kReach * ground.step;
-  const GridBox blocks = blocks_about(ground, box);
-  return box.xmin <= end || std::any_of(tiles.begin(), tiles.end(), [&](const CurveRange& tile) {
-           const GridBox square = square_of(tile.cell);
-           return square.xmin <= end && square.meets(blocks);
-         });
 }
 
 inline std::map<Position, int> levels_in(const WorkingIndex& index) {

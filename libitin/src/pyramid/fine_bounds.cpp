@@ -24,29 +24,20 @@ struct Squares {
 /// One tile's single squares: what lies over each at one level.
 class TileBounds {
  public:
-  TileBounds(const WorkingIndex& index, const PostWindow& window, const PostHierarchy& posts)
-      : window_(window), sound_(static_cast<std::size_t>(window.across() * window.up())), fine_(sound_.size()) {
+  TileBounds(const WorkingIndex& index, const PostWindow& window)
+      : window_(window), clear_(static_cast<std::size_t>(window.across() * window.up())) {
     for (std::int64_t r = 0; r < window.up(); ++r)
-      for (std::int64_t c = 0; c < window.across(); ++c) sound_[square(c, r)] = window.is_sound(0, c, r) ? 1 : 0;
+      for (std::int64_t c = 0; c < window.across(); ++c) clear_[square(c, r)] = window.is_sound(0, c, r) ? 1 : 0;
     std::vector<Segment> segments;
     index.segments(window.box_of_squares(0, 0, window.across(), window.up()), segments);
     for (const Segment& s : segments) leave_clear_of(s);
-    for (std::int64_t row = 0; row < window.up(); row += kBlockSide)
-      for (std::int64_t column = 0; column < window.across(); column += kBlockSide)
-        find_fine_levels(column, row, posts);
+    unclear_ = {window.across(), window.up(),
+                [&](std::int64_t column, std::int64_t row) { return clear_[square(column, row)] == 0; }};
   }
-
-  /// Returns the coarsest level that is fine anywhere in the window.
-  int coarsest_level() const { return *std::max_element(fine_.begin(), fine_.end()); }
 
   void measure(int level) {
     level_ = level;
-    ranges_.assign(sound_.size(), {});
-    clear_ = sound_;
-    for (std::size_t s = 0; s < clear_.size(); ++s)
-      if (fine_[s] < level) clear_[s] = 0;
-    unclear_ = {window_.across(), window_.up(),
-                [&](std::int64_t column, std::int64_t row) { return clear_[square(column, row)] == 0; }};
+    ranges_.assign(clear_.size(), {});
     known_ = clear_;
     for (std::int64_t r = 0; r <= window_.up(); ++r)
       for (std::int64_t c = 0; c <= window_.across(); ++c) measure_about({c, r});
@@ -103,17 +94,8 @@ class TileBounds {
 
   void leave_clear_of(const Segment& s) {
     for_each(squares_at(extent_of(s)), [&](std::int64_t c, std::int64_t r) {
-      if (meets(s.a(), s.b(), window_.box_of_squares(c, r, 1, 1))) sound_[square(c, r)] = 0;
+      if (meets(s.a(), s.b(), window_.box_of_squares(c, r, 1, 1))) clear_[square(c, r)] = 0;
     });
-  }
-
-  /// Finds the coarsest fine level of the block whose lower left square this is.
-  void find_fine_levels(std::int64_t column, std::int64_t row, const PostHierarchy& posts) {
-    const LatticePlace& first = window_.first_block();
-    const int level = posts.coarsest_level_of_block(window_.lattice(),
-                                                    {first.column + column / kBlockSide, first.row + row / kBlockSide});
-    for_each({column, column + kBlockSide, row, row + kBlockSide},
-             [&](std::int64_t c, std::int64_t r) { fine_[square(c, r)] = static_cast<std::uint8_t>(level); });
   }
 
   bool is_clear(const Squares& s) const { return !unclear_.any_in(s.west, s.east, s.south, s.north); }
@@ -208,11 +190,9 @@ class TileBounds {
   }
 
   const PostWindow& window_;
-  std::vector<std::uint8_t> sound_;  ///< by single square: its posts alone are there, and no line is near
-  std::vector<std::uint8_t> fine_;   ///< by single square: the coarsest fine level of its block
+  std::vector<std::uint8_t> clear_;  ///< by single square: its posts alone are there, and no line is near
+  MarkedSquares unclear_;            ///< the single squares that are not clear
   int level_ = 0;
-  std::vector<std::uint8_t> clear_;      ///< by single square: it is sound, and the level is fine there
-  MarkedSquares unclear_;                ///< the single squares that are not clear
   std::vector<DifferenceRange> ranges_;  ///< by single square
   std::vector<std::uint8_t> known_;      ///< by single square: its range is known
 };
@@ -222,15 +202,15 @@ class TileBounds {
 std::vector<unsigned> measure_fine_levels(const WorkingIndex& index, const std::vector<CurveRange>& tiles,
                                           const PostHierarchy& posts, LeafBounds& bounds, Progress& progress) {
   std::vector<unsigned> known(index.ranges().size(), 0);
-  if (posts.empty()) return known;
+  if (posts.coarsest_level() == 0) return known;
   std::atomic<std::size_t> done = 0;
   parallel_for(tiles.size(), [&](std::size_t i) {
     progress.throw_if_cancelled();
     const CurveRange& tile = tiles[i];
     const auto window = PostWindow::about(index, tile);
     if (!window) return;
-    TileBounds measured(index, *window, posts);
-    for (int k = 1; k <= measured.coarsest_level(); ++k) {
+    TileBounds measured(index, *window);
+    for (int k = 1; k <= posts.coarsest_level(); ++k) {
       measured.measure(k);
       for (std::uint32_t leaf = index.leaf_of(tile.cell.code);
            leaf < known.size() && index.ranges()[leaf].cell.code < tile.cell.end(); ++leaf) {

@@ -8,8 +8,8 @@
 #include <utility>
 
 #include <itin/parallel.hpp>
+#include <itin/sort_unique.hpp>
 
-#include "geometry/whole_division.hpp"
 #include "pyramid/post_window.hpp"
 
 namespace itin {
@@ -18,7 +18,7 @@ namespace {
 
 /// Tiles whose levels are held until they are written, because tiles read each other's heights.
 constexpr std::size_t kTilesAtOnce = 32;
-/// A level is fine in a work cell where its heights ask for one in so many posts, or more.
+/// A level is fine where it has one in so many posts, or more.
 constexpr std::uint64_t kPostsPerFinePost = 2;
 
 /// The levels that the hierarchy gives to the posts of a window.
@@ -28,7 +28,7 @@ constexpr std::uint64_t kPostsPerFinePost = 2;
 class WindowLevels {
  public:
   WindowLevels(const PostWindow& window, std::span<const std::int32_t> tolerances)
-      : window_(window), tolerances_(tolerances), levels_(window.posts(), 0), kept_(window.posts()) {
+      : window_(window), tolerances_(tolerances), levels_(window.posts(), 0) {
     for (std::size_t size = 0; size < PostWindow::kSizes; ++size) keep_corners(size);
     // From the least squares to the greatest: so a post has its level before its corners need it.
     for (std::int64_t half = 1; half < kBlockSide; half *= 2) {
@@ -48,8 +48,6 @@ class WindowLevels {
     if (!place || !window_.is_post_of_square(*place)) return std::nullopt;
     return levels_[window_.post(*place)];
   }
-  /// Tells whether a post is kept at all levels, whatever the heights.
-  bool is_kept(Position p) const { return kept_[window_.post(*window_.place_of(p))]; }
 
  private:
   /// Keeps the corners of the greatest sound squares at all levels: those that are blocks or not part of a sound one.
@@ -60,14 +58,9 @@ class WindowLevels {
         const bool part_of_sound = size + 1 < PostWindow::kSizes && window_.is_sound(size + 1, c / 2, r / 2);
         if (!window_.is_sound(size, c, r) || part_of_sound) continue;
         for (const std::int64_t row : {r * side, (r + 1) * side})
-          for (const std::int64_t column : {c * side, (c + 1) * side}) keep(window_.post(column, row));
+          for (const std::int64_t column : {c * side, (c + 1) * side}) levels_[window_.post(column, row)] = coarsest();
       }
     }
-  }
-
-  void keep(std::size_t post) {
-    levels_[post] = coarsest();
-    kept_[post] = true;
   }
 
   /// Gives the post in the middle of a square its level, and the square's corners at least the same.
@@ -103,7 +96,6 @@ class WindowLevels {
   const PostWindow& window_;
   std::span<const std::int32_t> tolerances_;
   std::vector<std::uint8_t> levels_;  ///< by post
-  std::vector<bool> kept_;            ///< by post
 };
 
 /// Calls visit(place, squares) for each block of a window but the outermost ones that has a sound square: its column
@@ -127,14 +119,46 @@ struct TileLevels {
   PostLattice lattice;
   std::vector<std::pair<LatticePlace, SoundSquares>> blocks;
   std::vector<std::uint8_t> levels;  ///< by the tile's points; kNoLevel for those that are no posts
-  int coarsest_level = 0;            ///< the coarsest fine level
 };
 
 constexpr std::uint8_t kNoLevel = 0xff;
 
-/// Returns the column or row of blocks that single squares of this column or row are in.
-std::int64_t block_of(std::int64_t place) {
-  return floor_divide(place, std::int64_t{kBlockSide});
+TileLevels levels_of_tile(const WorkingIndex& index, const CurveRange& tile, std::span<const std::int32_t> tolerances) {
+  TileLevels result;
+  const auto window = PostWindow::about(index, tile);
+  if (!window) return result;
+  result.lattice = window->lattice();
+  for_each_inner_block(*window, [&](const LatticePlace& place, const SoundSquares& squares) {
+    result.blocks.emplace_back(place, squares);
+  });
+  if (result.blocks.empty()) return result;
+  const WindowLevels levels(*window, tolerances);
+  for (const RawPoint& p : index.read(tile))
+    result.levels.push_back(p.level == kDropped ? kNoLevel : levels.at(position_of(p.code)).value_or(kNoLevel));
+  return result;
+}
+
+/// Writes a tile's levels. Returns the points that have a level already.
+std::vector<LevelRaise> write_levels(WorkingIndex& index, const CurveRange& tile,
+                                     const std::vector<std::uint8_t>& levels) {
+  std::vector<LevelRaise> given;
+  if (levels.empty()) return given;
+  std::vector<RawPoint> points = index.read(tile);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    RawPoint& p = points[i];
+    if (p.level != kDropped && p.level > 0) given.push_back({p.code, p.level});
+    if (levels[i] != kNoLevel) p.level = std::max<std::uint16_t>(p.level, levels[i]);
+  }
+  index.write(tile, points);
+  return given;
+}
+
+/// Makes points of a tile that have a coarser level than this one points of this level.
+void cut_levels(WorkingIndex& index, const CurveRange& tile, int coarsest) {
+  std::vector<RawPoint> points = index.read(tile);
+  for (RawPoint& p : points)
+    if (p.level != kDropped) p.level = std::min(p.level, static_cast<std::uint16_t>(coarsest));
+  index.write(tile, points);
 }
 
 /// Finds the coarsest level that has half of all posts, which are counted by their coarsest levels.
@@ -148,63 +172,13 @@ int coarsest_fine_level(const std::vector<std::uint64_t>& posts) {
   return 0;
 }
 
-TileLevels levels_of_tile(const WorkingIndex& index, const CurveRange& tile, std::span<const std::int32_t> tolerances) {
-  TileLevels result;
-  const auto window = PostWindow::about(index, tile);
-  if (!window) return result;
-  result.lattice = window->lattice();
-  for_each_inner_block(*window, [&](const LatticePlace& place, const SoundSquares& squares) {
-    result.blocks.emplace_back(place, squares);
-  });
-  if (result.blocks.empty()) return result;
-  const WindowLevels levels(*window, tolerances);
-  // Among gaps most posts are kept, which says nothing of the heights.
-  std::vector<std::uint64_t> chosen(tolerances.size(), 0);
-  for (const RawPoint& p : index.read(tile)) {
-    const Position position = position_of(p.code);
-    const auto level = p.level == kDropped ? std::nullopt : levels.at(position);
-    result.levels.push_back(level.value_or(kNoLevel));
-    if (level && !levels.is_kept(position)) chosen[*level] += 1;
-  }
-  result.coarsest_level = coarsest_fine_level(chosen);
-  return result;
-}
-
-/// Writes a tile's levels. Returns the points that have a level already.
-std::vector<LevelRaise> write_levels_of_tile(WorkingIndex& index, const CurveRange& tile,
-                                             const std::vector<std::uint8_t>& levels) {
-  std::vector<LevelRaise> given;
-  if (levels.empty()) return given;
-  std::vector<RawPoint> points = index.read(tile);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    RawPoint& p = points[i];
-    if (p.level != kDropped && p.level > 0) given.push_back({p.code, p.level});
-    if (levels[i] != kNoLevel) p.level = std::max<std::uint16_t>(p.level, levels[i]);
-  }
-  index.write(tile, points);
-  return given;
-}
-
 }  // namespace
 
 PostHierarchy::PostHierarchy(WorkingIndex& index, const std::vector<CurveRange>& tiles,
-                             std::span<const std::int32_t> tolerances, Progress& progress)
-    : posts_(tolerances.size(), 0) {
-  std::vector<LevelRaise> given;
-  const std::vector<CurveRange> with_posts = write_levels(index, tiles, tolerances, given, progress);
-  for (auto& [lattice, blocks] : blocks_)
-    std::erase_if(blocks, [](const auto& block) { return block.second.coarsest_level == 0; });
-  std::erase_if(blocks_, [](const auto& of_lattice) { return of_lattice.second.empty(); });
-  cut_levels(index, with_posts);
-  index.promote(std::move(given));
-}
-
-/// Writes the levels of all posts, and finds the fine levels of blocks. Returns the tiles that have posts, and in
-/// `given` the points that have a level already.
-std::vector<CurveRange> PostHierarchy::write_levels(WorkingIndex& index, const std::vector<CurveRange>& tiles,
-                                                    std::span<const std::int32_t> tolerances,
-                                                    std::vector<LevelRaise>& given, Progress& progress) {
+                             std::span<const std::int32_t> tolerances, Progress& progress) {
+  std::vector<std::uint64_t> posts(tolerances.size(), 0);
   std::vector<CurveRange> with_posts;
+  std::vector<LevelRaise> given;
   std::atomic<std::size_t> done = 0;
   for (std::size_t first = 0; first < tiles.size(); first += kTilesAtOnce) {
     std::vector<TileLevels> found(std::min(kTilesAtOnce, tiles.size() - first));
@@ -214,74 +188,41 @@ std::vector<CurveRange> PostHierarchy::write_levels(WorkingIndex& index, const s
       found[i] = levels_of_tile(index, tiles[first + i], tolerances);
       progress.report("finding fine levels", static_cast<double>(++done) / static_cast<double>(tiles.size()));
     });
-    parallel_for(found.size(), [&](std::size_t i) {
-      given_there[i] = write_levels_of_tile(index, tiles[first + i], found[i].levels);
-    });
+    parallel_for(found.size(),
+                 [&](std::size_t i) { given_there[i] = write_levels(index, tiles[first + i], found[i].levels); });
     for (std::size_t i = 0; i < found.size(); ++i) {
       if (found[i].blocks.empty()) continue;
       with_posts.push_back(tiles[first + i]);
-      for (const auto& [place, squares] : found[i].blocks) {
-        Block& block = blocks_[found[i].lattice].try_emplace(place, Block{squares}).first->second;
-        block.coarsest_level = std::max(block.coarsest_level, found[i].coarsest_level);
-      }
+      blocks_[found[i].lattice].insert(found[i].blocks.begin(), found[i].blocks.end());
       given.insert(given.end(), given_there[i].begin(), given_there[i].end());
+      for (const std::uint8_t level : found[i].levels)
+        if (level != kNoLevel) posts[level] += 1;
     }
   }
-  return with_posts;
+  coarsest_ = coarsest_fine_level(posts);
+  if (coarsest_ == 0) blocks_.clear();
+  parallel_for(with_posts.size(), [&](std::size_t i) { cut_levels(index, with_posts[i], coarsest_); });
+  index.promote(std::move(given));
 }
 
-/// Makes posts that have a coarser level than those that are fine about them posts of the coarsest one, and counts
-/// posts by their fine levels.
-void PostHierarchy::cut_levels(WorkingIndex& index, const std::vector<CurveRange>& tiles) {
-  std::vector<std::vector<std::uint64_t>> posts(tiles.size(), std::vector<std::uint64_t>(posts_.size(), 0));
-  parallel_for(tiles.size(), [&](std::size_t i) {
-    std::vector<RawPoint> points = index.read(tiles[i]);
-    for (RawPoint& p : points) {
-      if (p.level == kDropped) continue;
-      const int coarsest = coarsest_level_at(position_of(p.code));
-      posts[i][static_cast<std::size_t>(coarsest)] += 1;
-      p.level = std::min(p.level, static_cast<std::uint16_t>(coarsest));
-    }
-    index.write(tiles[i], points);
-  });
-  for (const std::vector<std::uint64_t>& of_tile : posts)
-    for (std::size_t k = 1; k < posts_.size(); ++k) posts_[k] += of_tile[k];
-  for (std::size_t k = posts_.size(); k-- > 2;) posts_[k - 1] += posts_[k];
-}
-
-int PostHierarchy::coarsest_level_at(Position p) const {
-  int coarsest = 0;
-  for (const auto& [lattice, blocks] : blocks_) {
-    const auto place = lattice.place_of(p);
-    if (!place) continue;
-    // Posts on a block's sides belong to two blocks, and its corners to four.
+bool PostHierarchy::has(Position p) const {
+  return std::any_of(blocks_.begin(), blocks_.end(), [&](const auto& of_lattice) {
+    const auto place = of_lattice.first.place_of(p);
+    if (!place) return false;
     const auto& [c, r] = *place;
-    for (std::int64_t row = block_of(r - 1); row <= block_of(r); ++row) {
-      for (std::int64_t column = block_of(c - 1); column <= block_of(c); ++column) {
-        const auto block = blocks.find({column, row});
-        if (block != blocks.end() && block->second.squares.has_corner(c - column * kBlockSide, r - row * kBlockSide))
-          coarsest = std::max(coarsest, block->second.coarsest_level);
-      }
-    }
-  }
-  return coarsest;
+    const Blocks& blocks = of_lattice.second;
+    return is_sound(blocks, c, r, 1) || is_sound(blocks, c - 1, r, 1) || is_sound(blocks, c, r - 1, 1) ||
+           is_sound(blocks, c - 1, r - 1, 1);
+  });
 }
 
-int PostHierarchy::coarsest_level_of_block(const PostLattice& lattice, const LatticePlace& block) const {
-  const auto blocks = blocks_.find(lattice);
-  if (blocks == blocks_.end()) return 0;
-  const auto found = blocks->second.find(block);
-  return found == blocks->second.end() ? 0 : found->second.coarsest_level;
-}
-
-/// Returns the coarsest fine level of the level square with this lower left post and sides of so many steps; 0 where
-/// the square is not sound.
-int PostHierarchy::coarsest_level_in(const Blocks& blocks, std::int64_t column, std::int64_t row, std::int64_t side) {
-  const LatticePlace place{block_of(column), block_of(row)};
-  const auto block = blocks.find(place);
-  const bool sound = block != blocks.end() &&
-                     block->second.squares.has(column - place.column * kBlockSide, row - place.row * kBlockSide, side);
-  return sound ? block->second.coarsest_level : 0;
+/// Tells whether the level square with this lower left post and sides of so many steps is sound.
+bool PostHierarchy::is_sound(const Blocks& blocks, std::int64_t column, std::int64_t row, std::int64_t side) {
+  const std::int64_t block_column = floor_divide(column, std::int64_t{kBlockSide}),
+                     block_row = floor_divide(row, std::int64_t{kBlockSide});
+  const auto block = blocks.find({block_column, block_row});
+  return block != blocks.end() &&
+         block->second.has(column - block_column * kBlockSide, row - block_row * kBlockSide, side);
 }
 
 std::vector<LevelRaise> PostHierarchy::closing(std::span<const LevelRaise> raises) const {
@@ -290,10 +231,11 @@ std::vector<LevelRaise> PostHierarchy::closing(std::span<const LevelRaise> raise
     std::vector<LevelRaise> open(raises.begin(), raises.end());
     while (!open.empty()) {
       std::vector<LevelRaise> next;
-      for (const LevelRaise& post : open) {
-        for (const LevelRaise& corner : corners_needed(lattice, blocks, post)) {
-          int& known = needed[corner.code];
-          if (known < corner.level) known = corner.level, next.push_back(corner);
+      for (const auto& [code, level] : open) {
+        for (const std::uint64_t corner : corners_needed(lattice, blocks, code)) {
+          int& known = needed[corner];
+          const int wanted = std::min(level, coarsest_);
+          if (known < wanted) known = wanted, next.push_back({corner, wanted});
         }
       }
       open = std::move(next);
@@ -304,23 +246,21 @@ std::vector<LevelRaise> PostHierarchy::closing(std::span<const LevelRaise> raise
   return result;
 }
 
-/// The corners that a post needs of the sound halves of its square, at the fine levels that are there.
-std::vector<LevelRaise> PostHierarchy::corners_needed(const PostLattice& lattice, const Blocks& blocks,
-                                                      const LevelRaise& post) {
-  std::vector<LevelRaise> corners;
-  const auto place = lattice.place_of(position_of(post.code));
+/// The corners that a post needs of the sound halves of its square.
+std::vector<std::uint64_t> PostHierarchy::corners_needed(const PostLattice& lattice, const Blocks& blocks,
+                                                         std::uint64_t code) {
+  std::vector<std::uint64_t> corners;
+  const auto place = lattice.place_of(position_of(code));
   if (!place) return corners;
   const PostSquare square = square_about(*place);
   if (square.half == 0) return corners;
   for (const LatticePlace& half : halves_of(*place, square)) {
-    const int coarsest = coarsest_level_in(blocks, half.column - square.half, half.row - square.half, 2 * square.half);
-    const int level = std::min(post.level, coarsest);
-    if (level == 0) continue;
+    if (!is_sound(blocks, half.column - square.half, half.row - square.half, 2 * square.half)) continue;
     for (const auto& [c, r] : corners_in_half(*place, square, half))
-      corners.push_back({morton(static_cast<std::int32_t>(lattice.x + c * lattice.step_x),
-                                static_cast<std::int32_t>(lattice.y + r * lattice.step_y)),
-                         level});
+      corners.push_back(morton(static_cast<std::int32_t>(lattice.x + c * lattice.step_x),
+                               static_cast<std::int32_t>(lattice.y + r * lattice.step_y)));
   }
+  sort_unique(corners);
   return corners;
 }
 

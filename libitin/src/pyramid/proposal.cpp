@@ -31,24 +31,25 @@ std::vector<std::uint8_t> levels_of(const TileSurvey& survey, std::span<const do
 }
 
 /// Makes spare vertices of the posts that the hierarchy left out of the fine levels. Returns the finest level that is
-/// still to be chosen for points of the tile.
-std::size_t leave_fine_levels(const PostHierarchy& posts, const CurveRange& tile, std::size_t levels,
-                              TileSurvey& survey) {
-  if (posts.empty()) return 1;
-  std::size_t finest = levels;
+/// still to be chosen.
+std::size_t leave_fine_levels(const PostHierarchy& posts, TileSurvey& survey) {
+  if (posts.coarsest_level() == 0) return 1;
+  bool all = true;
   for (std::size_t v = 0; v < survey.candidacy.size(); ++v) {
     if (survey.candidacy[v] == Candidacy::kNone) continue;
     const SelectedVertex& vertex = survey.surface.vertices[v];
-    const int fine = posts.coarsest_level_at(vertex.position());
-    if (survey.candidacy[v] == Candidacy::kFree && vertex.level < fine) survey.candidacy[v] = Candidacy::kSpare;
-    if (tile.cell.contains(code_of(vertex))) finest = std::min(finest, static_cast<std::size_t>(fine) + 1);
+    if (!posts.has(vertex.position())) {
+      all = false;
+    } else if (survey.candidacy[v] == Candidacy::kFree && vertex.level < posts.coarsest_level()) {
+      survey.candidacy[v] = Candidacy::kSpare;
+    }
   }
-  return finest;
+  return all ? static_cast<std::size_t>(posts.coarsest_level()) + 1 : 1;
 }
 
 TileProposal propose(const WorkingIndex& index, const CurveRange& tile, TileSurvey survey,
                      std::span<const double> tolerances, const PostHierarchy& posts) {
-  const std::size_t finest = leave_fine_levels(posts, tile, tolerances.size(), survey);
+  const std::size_t finest = leave_fine_levels(posts, survey);
   const std::vector<SelectedVertex>& vertices = survey.surface.vertices;
   const std::vector<std::uint8_t> levels = levels_of(survey, tolerances, finest);
   TileProposal proposal{{std::move(survey.outline), std::move(survey.isolated), {}}, {}, {}};
@@ -66,7 +67,7 @@ TileProposal propose(const WorkingIndex& index, const CurveRange& tile, TileSurv
     } else {
       continue;
     }
-    if (levels[v] > vertices[v].level && vertices[v].level < posts.coarsest_level_at(vertices[v].position()))
+    if (levels[v] > vertices[v].level && vertices[v].level < posts.coarsest_level())
       proposal.coverage.raised.push_back({code, levels[v]});
   }
   return proposal;
