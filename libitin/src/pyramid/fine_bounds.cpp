@@ -43,10 +43,13 @@ class TileBounds {
       for (std::int64_t c = 0; c <= window_.across(); ++c) measure_about({c, r});
     for (std::int64_t r = kBlockSide; r < window_.up() - kBlockSide; ++r) {
       for (std::int64_t c = kBlockSide; c < window_.across() - kBlockSide; ++c) {
-        // Elsewhere than in squares without their middle, the level has all posts, and is the full surface.
+        // Elsewhere than in squares without their middle, the level has all posts, and is the full surface, unless
+        // that has a point within the circle about the square, which reaches into the squares beside it.
         if (!ranges_[square(c, r)].empty()) continue;
         ranges_[square(c, r)] = {0, 0};
-        if (!has({c, r}) || !has({c + 1, r}) || !has({c, r + 1}) || !has({c + 1, r + 1})) known_[square(c, r)] = 0;
+        if (!has({c, r}) || !has({c + 1, r}) || !has({c, r + 1}) || !has({c + 1, r + 1}) ||
+            !is_clear({c - 1, c + 2, r - 1, r + 2}))
+          known_[square(c, r)] = 0;
       }
     }
   }
@@ -120,8 +123,9 @@ class TileBounds {
     } else {
       add_upright(middle, square.half, there, range);
     }
-    // The circle about a level square reaches a little less than a quarter of its side beyond it.
-    const std::int64_t reach = square.kind == SquareKind::kLevel ? square.half + (square.half + 1) / 2 : square.half;
+    // The circle about a level square reaches a little less than a quarter of its side beyond it, and those about
+    // single squares at the corners of another one reach into the squares beyond.
+    const std::int64_t reach = square.half + (square.kind == SquareKind::kLevel ? (square.half + 1) / 2 : 1);
     if (!is_clear(about(middle, reach)))
       for_each(about(middle, square.half), [&](std::int64_t c, std::int64_t r) { known_[this->square(c, r)] = 0; });
   }
