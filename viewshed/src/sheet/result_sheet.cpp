@@ -9,6 +9,7 @@
 
 #include <itin/coordinates.hpp>
 #include <itin/counted.hpp>
+#include <itin/in_ring.hpp>
 #include <itin/parallel.hpp>
 #include <itin/surface_text.hpp>
 #include <itin/void_stripes.hpp>
