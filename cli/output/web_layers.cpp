@@ -112,8 +112,9 @@ class WebLayer {
   double path_height() const { return std::round(kPathUnits * frame_.height() / frame_.width()); }
 
   std::string path_of(const std::vector<Point2>& ground) const {
+    const double height = path_height();
     std::vector<Point2> points;
-    for (const Point2& p : ground) points.push_back({across(p.x) * kPathUnits, down(p.y) * path_height()});
+    for (const Point2& p : ground) points.push_back({across(p.x) * kPathUnits, down(p.y) * height});
     return svg_path(points, kTenthOfAPixel);
   }
 

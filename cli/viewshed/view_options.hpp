@@ -44,8 +44,6 @@ class ViewOptions {
   const viewshed::Request& request() const { return request_; }
   /// Whether the answer is asked for by certificates.
   bool certified() const { return certified_; }
-  /// Whether it is exact for the full surface, even if it was not asked for by that name.
-  bool precise() const { return precise_; }
   bool has_rings() const { return detail_.has_rings(); }
   bool is_radio() const { return radio_.is_given(); }
   const ObserverOptions& observers() const { return observers_; }

@@ -34,6 +34,7 @@
 #include "viewshed/viewshed_outputs.hpp"
 #include "viewshed/viewshed_sheet.hpp"
 #include "viewshed/viewshed_text.hpp"
+#include "viewshed/viewshed_title.hpp"
 
 namespace itin::cli {
 
@@ -126,9 +127,8 @@ class ViewshedVerb final : public Verb {
     const std::vector<SourceInfo> sources = sources_in(store, looked_at(computed.result), request.themes);
     const ViewshedOutputs::Context context{metadata, view_.certified(), missing, described(sources, metadata), woods};
     add_view_warnings(metadata, view_, computed.result, missing, result.warnings);
-    // Certified and exact answers are about the full surface.
     viewshed::Request answered = computed.result.request;
-    if (view_.precise() || view_.certified()) answered.detail = Detail::tolerance(0);
+    answered.detail = answered_detail(computed.result);
     // The horizon comes before the other files, for it refuses targets that no line reaches.
     const Document targets =
         horizon_.write(store, computed, answered, compute_options_, outputs_.overwrite(), progress, result.warnings);

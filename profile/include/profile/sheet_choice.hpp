@@ -21,6 +21,9 @@ struct SheetChoice {
   std::string project = {};            ///< for title blocks, as the date is
   std::string date = {};
   std::string basemap = {};  ///< a georeferenced picture in place of the shaded relief; empty: none
+
+  /// Returns the project and the date alone, for a map that is made unasked.
+  SheetChoice names() const { return {.project = project, .date = date}; }
 };
 
 }  // namespace itin::profile

@@ -50,11 +50,9 @@ std::string radar_methods(const ZoneStudy& study) {
   const RadarView& radar = *study.zone.radar;
   std::string text = fmt::format(
       "## Radar\n\nA radar at {:.0f}, {:.0f}, {:g} m above its ground of {:.1f} m. Mapped is the least height above "
-      "the "
-      "ground that it sees over bare ground, with curvature and refraction as stated; for each turbine is told how "
-      "many "
-      "metres of it rise above the radar's horizon. It sees {}. The heights are exact for the surface; between the "
-      "terrain's points they depend on its triangles.",
+      "the ground that it sees over bare ground, with curvature and refraction as stated; for each turbine is told "
+      "how many metres of it rise above the radar's horizon. It sees {}. The heights are exact for the surface; "
+      "between the terrain's points they depend on its triangles.",
       place.position.x, place.position.y, place.height, radar.ground_m, turbines_of_radar(study.zone));
   if (radar.leaves_open())
     text += fmt::format(

@@ -96,8 +96,7 @@ std::string dwelling_map(const Store& store, const DwellingsSurvey& survey, cons
                          const std::string& name, Progress& progress) {
   const Box shown = box_of_dwellings(survey);
   const ResultSheet sheet = object_sheet(shown, dwelling_objects(survey), title_of_dwellings(store, survey, shown));
-  const profile::SheetChoice choice{.project = sheets.project, .date = sheets.date};
-  return draw_result_sheet(store, sheet, profile::PaperSize::kA3, choice, name, progress);
+  return draw_result_sheet(store, sheet, profile::PaperSize::kA3, sheets.names(), name, progress);
 }
 
 }  // namespace itin::viewshed

@@ -93,8 +93,7 @@ std::string premises_map(const Store& store, const PremisesSurvey& survey, const
                          const std::string& name, Progress& progress) {
   const Box shown = shown_box(survey);
   const ResultSheet sheet = object_sheet(shown, premises_objects(survey), title_of_premises(store, survey, shown));
-  const profile::SheetChoice choice{.project = sheets.project, .date = sheets.date};
-  return draw_result_sheet(store, sheet, profile::PaperSize::kA3, choice, name, progress);
+  return draw_result_sheet(store, sheet, profile::PaperSize::kA3, sheets.names(), name, progress);
 }
 
 }  // namespace itin::viewshed
