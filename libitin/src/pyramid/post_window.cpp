@@ -74,7 +74,9 @@ std::optional<PostWindow> PostWindow::about(const WorkingIndex& index, const Cur
 /// Returns whether the box has a lattice that its points may fill.
 bool PostWindow::find_blocks(const WorkingIndex& index, const GridBox& box, std::int64_t points) {
   if (box.empty()) return false;
-  const auto lattice = prevailing_lattice(index, leaves_about(index, box), index.bounds());
+  // All leaves vote: the fullest may have a single column, as at a raster's end, or a point that is no post.
+  const std::vector<Leaf> leaves = leaves_about(index, box);
+  const auto lattice = prevailing_lattice(index, leaves, index.bounds(), leaves.size());
   if (!lattice || lattice->step_x != lattice->step_y) return false;
   lattice_ = lattice->from_first_place();
   const std::int64_t side = kBlockSide * lattice_.step_x;

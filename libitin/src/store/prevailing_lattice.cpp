@@ -9,8 +9,6 @@ namespace itin {
 
 namespace {
 
-constexpr std::size_t kVoters = 8;
-
 struct Vote {
   PostLattice lattice;
   std::uint64_t points = 0;
@@ -33,8 +31,8 @@ Vote vote_of(const PointIndex& index, const Leaf& leaf, const GridBox& box) {
 }  // namespace
 
 std::optional<PostLattice> prevailing_lattice(const PointIndex& index, std::span<const Leaf> leaves,
-                                              const GridBox& box) {
-  std::vector<Leaf> fullest(std::min(kVoters, leaves.size()));
+                                              const GridBox& box, std::size_t voters) {
+  std::vector<Leaf> fullest(std::min(voters, leaves.size()));
   std::partial_sort_copy(leaves.begin(), leaves.end(), fullest.begin(), fullest.end(),
                          [](const Leaf& a, const Leaf& b) { return a.points > b.points; });
   std::map<PostLattice, std::uint64_t> votes;

@@ -235,6 +235,22 @@ TEST(PostHierarchies, GiveTheLevelsOfTheirDefinitionWhateverTheTiles) {
   EXPECT_GT(fine, 0) << "none of these grounds has fine levels";
 }
 
+/// At this raster's end the fullest leaves of a tile have one column of posts, and do not know the step between columns.
+TEST(PostHierarchies, LeaveNoTileOut) {
+  NoProgress progress;
+  PostGround ground = random_ground(341);
+  ground.lines.clear();
+  const SlowHierarchy slow(ground);
+  ASSERT_GT(slow.coarsest(), 0);
+  test::TestIndex index = index_of(ground);
+  const PostHierarchy hierarchy(*index, index->tiles(1U << 12), kHierarchyTolerances, progress);
+  const std::map<Position, int> expected = slow.levels();
+  for (const auto& [p, level] : levels_in(*index)) {
+    const auto found = expected.find(p);
+    ASSERT_EQ(level, found == expected.end() ? 0 : found->second) << p.x << ' ' << p.y;
+  }
+}
+
 TEST(PostHierarchies, StayClosedWherePostsAreRaised) {
   NoProgress progress;
   std::mt19937 random(test::seed());
@@ -349,16 +365,15 @@ TEST(FineBounds, HoldWhatTriangulationFinds) {
   EXPECT_GT(known_leaves, 0U);
 }
 
-/// The full surface has the points that a level lacks, and other triangles in all squares whose circles hold one. The
-/// grounds are the same each time: in a few others verification loses its way, which is not understood yet.
+/// The full surface has the points that a level lacks, and other triangles in all squares whose circles hold one.
 TEST(FineBounds, HoldBesidePointsThatTheLevelLacks) {
   std::size_t known_leaves = 0;
   for (unsigned round = 0; round < 12; ++round) {
     SCOPED_TRACE(round);
-    PostGround ground = random_ground(2294 + round);
+    PostGround ground = random_ground(test::seed() + 400 + round);
     ground.lines.clear(), ground.strays.clear();
-    const std::set<Position> added = add_points_beside_sides(ground, round);
-    known_leaves += expect_bounds_hold(ground, round, added);
+    const std::set<Position> added = add_points_beside_sides(ground, test::seed() + round);
+    known_leaves += expect_bounds_hold(ground, test::seed() + round, added);
   }
   EXPECT_GT(known_leaves, 0U);
 }
