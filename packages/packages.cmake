@@ -86,7 +86,7 @@ endif()
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME itin)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "${late_packages}, fonts-dejavu-core")
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "python3-itin, python3-distributed, xdg-utils")
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "python3-itin, xdg-utils")
 set(CPACK_DEBIAN_PROGRAM_DESCRIPTION "viewsheds, lines of sight and sites for masts over real terrain
 itin computes what can be seen from where over real terrain, with buildings
 and trees: viewsheds, lines of sight, radio links, zones of visibility of
@@ -118,13 +118,15 @@ if(ITIN_BUILD_PYTHON)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
     "itin ${version}, python3 (>= 3.${minor}~), python3 (<< 3.${next}), python3-numpy, fonts-dejavu-core")
 endif()
-set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-xarray, python3-rasterio, python3-geopandas, python3-matplotlib")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS
+  "python3-xarray, python3-rasterio, python3-geopandas, python3-matplotlib, python3-distributed")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${CMAKE_CURRENT_LIST_DIR}/python3-itin/postinst
   ${CMAKE_CURRENT_LIST_DIR}/python3-itin/prerm)
 set(CPACK_DEBIAN_PYTHON_DESCRIPTION "viewsheds, lines of sight and sites for masts in Python
 The Python package itin calls the libraries that the command line calls, and
 its results are the command line's, to the byte. Arrays come as NumPy arrays,
-and viewsheds as datasets of xarray. It is typed.")
+and viewsheds as datasets of xarray. It is typed. The program itin-dask runs
+jobs of itin on many machines.")
 
 # The plugin.
 set(CPACK_DEBIAN_QGIS_PACKAGE_NAME qgis-plugin-itin)

@@ -18,7 +18,7 @@ foreach(folder IN ITEMS libitin viewshed profile)
 endforeach()
 if(ITIN_BUILD_PROGRAM)
   install(TARGETS itin_cli COMPONENT program)
-  install(PROGRAMS ${PROJECT_SOURCE_DIR}/bindings/dask/itin-dask TYPE BIN COMPONENT program)
+  install(PROGRAMS ${PROJECT_SOURCE_DIR}/bindings/dask/itin-dask TYPE BIN COMPONENT python)  # it is a script of Python
 endif()
 
 get_directory_property(ITIN_EMBREE_MAJOR DIRECTORY viewshed DEFINITION ITIN_EMBREE_MAJOR)
