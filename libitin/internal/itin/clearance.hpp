@@ -53,6 +53,7 @@ struct ClearancePiece {
   /// Returns where the ground rises above the line; an empty stretch where it does so nowhere by more than `grazing`.
   /// There is one such stretch at most, for the clearance is convex.
   std::pair<double, double> above_line(double grazing) const {
+    if (at(from) < -grazing && at(to) < -grazing) return {from, to};
     const double lowest = least_within(from, to);
     if (at(lowest) >= -grazing) return {lowest, lowest};
     // The roots of the parabola about its lowest place; those of a straight line are at infinity on one side.
@@ -70,7 +71,7 @@ struct ClearancePiece {
 class LineOverGround {
  public:
   LineOverGround(double start_z, double end_z, double length, double drop)
-      : start_z_(start_z), end_z_(end_z), bulge_{length, drop} {}
+      : start_z_(start_z), end_z_(end_z), rise_((end_z - start_z) / length), bulge_{length, drop} {}
 
   double length() const { return bulge_.length; }
 
@@ -90,7 +91,7 @@ class LineOverGround {
   std::optional<GroundPoint> lowest_between(const GroundPoint& a, const GroundPoint& b) const {
     const double width = b.distance - a.distance;
     if (width <= 0 || bulge_.drop <= 0) return std::nullopt;
-    const double distance = bulge_.summit((b.z - a.z) / width - (end_z_ - start_z_) / length());
+    const double distance = bulge_.summit((b.z - a.z) / width - rise_);
     if (distance <= a.distance || distance >= b.distance) return std::nullopt;
     return GroundPoint{distance, a.z + (distance - a.distance) / width * (b.z - a.z)};
   }
@@ -99,12 +100,13 @@ class LineOverGround {
   ClearancePiece piece(const GroundPoint& a, const GroundPoint& b) const {
     ITIN_PRECONDITION(a.distance < b.distance);
     const double slope = (b.z - a.z) / (b.distance - a.distance);
-    return {a.distance, b.distance, start_z_ - (a.z - slope * a.distance),
-            (end_z_ - start_z_) / length() - slope - bulge_.drop * length(), bulge_.drop};
+    return {a.distance, b.distance, start_z_ - (a.z - slope * a.distance), rise_ - slope - bulge_.drop * length(),
+            bulge_.drop};
   }
 
  private:
   double start_z_, end_z_;
+  double rise_;  ///< of the line, per unit of distance
   Bulge bulge_;
 };
 

@@ -47,12 +47,14 @@ struct FoliageAbout::Line {
   Line(const Point3& eye, const Point3& target, double drop)
       : dx(target.x - eye.x),
         dy(target.y - eye.y),
-        squared(dx * dx + dy * dy),
-        length(std::sqrt(squared)),
+        per_squared(1 / (dx * dx + dy * dy)),
+        length(std::hypot(dx, dy)),
         slope((target.z - eye.z) / length - drop * length),
-        over(eye.z, target.z, 1, drop * squared) {}
+        over(eye.z, target.z, 1, drop * (dx * dx + dy * dy)) {}
 
-  double dx, dy, squared, length;
+  double dx, dy;
+  double per_squared;  ///< one by the squared length
+  double length;
   double slope;  ///< at which the target appears
   LineOverGround over;
 };
@@ -264,7 +266,7 @@ void FoliageAbout::add_piece(const Line& line, const Triangle& corners, const Si
 FoliageAbout::Crossing FoliageAbout::crossing_at(const Line& line, std::uint32_t corner) const {
   const GridPoint& p = surface_.vertices[corner];
   const double along = (p.x - eye_.x) * line.dx + (p.y - eye_.y) * line.dy;
-  return {{along / line.squared, 1.0 * p.z}, surface_.raised_theme[corner]};
+  return {{along * line.per_squared, 1.0 * p.z}, surface_.raised_theme[corner]};
 }
 
 std::optional<FoliageAbout::Piece> FoliageAbout::piece_between(const Line& line, const Crossing& in,
