@@ -92,6 +92,8 @@ export const launchBrowser = (drawing = ["--disable-gpu"]) =>
   puppeteer.launch({
     executablePath: process.env.ITIN_CHROMIUM ?? "/usr/bin/chromium",
     headless: true,
+    timeout: PATIENCE,
+    protocolTimeout: PATIENCE,
     args: ["--no-sandbox", "--force-device-scale-factor=1", ...drawing],
   });
 
