@@ -123,7 +123,7 @@ void add_season(std::vector<ZoneMap>& maps, ZoneMap map, const char* name, const
 
 std::vector<ZoneMap> zone_maps(const Zone& zone, std::size_t most_combinations) {
   std::vector<ZoneMap> maps;
-  const std::size_t farms = farms_of(zone).size();
+  const std::size_t farms = farms_of(zone.request.turbines).size();
   const auto add_all = [&](const Visibility& v, bool screened) {
     add_map(maps, tip_map(zone, v.tip_count, v.tip_undecided), "tip-count", "tip", screened);
     if (known_hubs(zone) > 0) add_map(maps, hub_map(zone, v.hub_count, v.hub_undecided), "hub-count", "hub", screened);

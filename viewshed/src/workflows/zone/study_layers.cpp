@@ -37,8 +37,8 @@ VectorLayer layer_of_lines(const char* name, const profile::SheetLines& lines, d
 }
 
 std::string style_of_farms(const Zone& zone) {
-  const std::vector<std::string> farms = farms_of(zone);
-  const std::vector<Rgba> colours = farm_colours(zone);
+  const std::vector<std::string> farms = farms_of(zone.request.turbines);
+  const std::vector<Rgba> colours = farm_colours(zone.request.turbines);
   std::vector<FeatureClass> classes;
   for (std::size_t f = 0; f < farms.size(); ++f)
     classes.push_back({farms[f].c_str(), farms[f].empty() ? "Turbine" : farms[f].c_str(), colours[f]});

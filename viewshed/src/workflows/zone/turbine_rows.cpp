@@ -1,5 +1,7 @@
 #include "workflows/zone/turbine_rows.hpp"
 
+#include <viewshed/zone_files.hpp>
+
 #include "workflows/zone/study_radio.hpp"
 
 namespace itin::viewshed {
