@@ -146,7 +146,10 @@ std::vector<ValueBand> radar_bands() {
 }
 
 std::vector<ValueBand> share_bands() {
-  return limit_bands({0.01, 0.02, 0.05, 0.1, 0.2, 0.5}, "of the ground");
+  constexpr double kPercent = 100;
+  std::vector<ValueBand> bands = limit_bands({1, 2, 5, 10, 20, 50}, "% of the ground");
+  for (ValueBand& band : bands) band.to /= kPercent;
+  return bands;
 }
 
 std::size_t band_of(const std::vector<ValueBand>& bands, double value) {

@@ -99,7 +99,7 @@ ZoneMap proposal_map(const Zone& zone, const Visibility& visibility) {
 ZoneMap addition_map(const Zone& zone, const Visibility& visibility) {
   ZoneMap map;
   map.title = "Additional visibility: what the proposal adds to other turbines";
-  map.heading = "Blade tips visible of";
+  map.heading = "Whose blade tips are visible";
   for (const AdditionClass& c : kAdditions) map.classes.push_back({c.text, c.colour});
   map.classes.front().label = kNone;
   map.class_of_cell = additions(zone, visibility);
