@@ -51,14 +51,21 @@ std::vector<std::string> farms_of(const std::vector<Turbine>& turbines);
 /// apart with every kind of colour blindness. Where the farms are too many to be told apart, all have one colour.
 std::vector<Rgba> farm_colours(const std::vector<Turbine>& turbines);
 
+/// Returns the name of a turbine's status; empty where it is not known.
+const char* planning_status(const Turbine& turbine);
+/// Returns the style of a layer of turbines that has the fields planning_status and farm: in colours by their status
+/// where some are proposed and others are not, else by their farms.
+std::string turbine_style(const std::vector<Turbine>& turbines);
+
 /// Turbines that have one colour on maps and wirelines.
 struct TurbineGroup {
   std::string name;  ///< as legends have it: "Pen y Cymoedd, existing"; may be empty
   Rgba colour;
   std::vector<std::size_t> turbines;  ///< their indices, ascending
 };
-/// Returns the groups of turbines: farms in the order of farms_of(), with the status that all turbines of the farm have;
-/// where the farms are too many to be told apart, the statuses that occur; without statuses all turbines are one group.
+/// Returns the groups of turbines: farms in the order of farms_of(), with the status that all turbines of the farm
+/// have; where the farms are too many to be told apart, the statuses that occur; without statuses all turbines are one
+/// group.
 std::vector<TurbineGroup> turbine_groups(const std::vector<Turbine>& turbines);
 
 /// Counts the turbines whose hub height is known; others do not count among the hubs.

@@ -73,6 +73,23 @@ std::vector<Rgba> farm_colours(const std::vector<Turbine>& turbines) {
   return {kFarmColours.begin(), kFarmColours.begin() + static_cast<std::ptrdiff_t>(farms)};
 }
 
+const char* planning_status(const Turbine& turbine) {
+  return turbine.status ? status_class(*turbine.status).name : "";
+}
+
+std::string turbine_style(const std::vector<Turbine>& turbines) {
+  const auto proposed = std::count_if(turbines.begin(), turbines.end(),
+                                      [](const Turbine& t) { return t.status == TurbineStatus::kProposed; });
+  if (proposed > 0 && static_cast<std::size_t>(proposed) < turbines.size())
+    return point_style("planning_status", kTurbineStatuses);
+  const std::vector<std::string> farms = farms_of(turbines);
+  const std::vector<Rgba> colours = farm_colours(turbines);
+  std::vector<FeatureClass> classes;
+  for (std::size_t f = 0; f < farms.size(); ++f)
+    classes.push_back({farms[f].c_str(), farms[f].empty() ? "Turbine" : farms[f].c_str(), colours[f]});
+  return point_style("farm", classes);
+}
+
 std::vector<TurbineGroup> turbine_groups(const std::vector<Turbine>& turbines) {
   const std::vector<std::string> farms = farms_of(turbines);
   if (farms.size() > kFarmColours.size()) return groups_by_status(turbines);
