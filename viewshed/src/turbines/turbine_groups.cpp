@@ -48,6 +48,14 @@ std::string name_of_farm(const std::vector<Turbine>& turbines, const std::string
   return farm.empty() ? status_class(*status).text : fmt::format("{}, {}", farm, status_class(*status).name);
 }
 
+/// Returns the farm that all turbines of a group are of.
+std::optional<std::string> only_farm(const std::vector<Turbine>& turbines, const TurbineGroup& group) {
+  const std::string& first = turbines[group.turbines.front()].farm;
+  const bool same = std::all_of(group.turbines.begin(), group.turbines.end(),
+                                [&](std::size_t i) { return turbines[i].farm == first; });
+  return same ? std::optional(first) : std::nullopt;
+}
+
 std::vector<TurbineGroup> groups_by_status(const std::vector<Turbine>& turbines) {
   std::vector<TurbineGroup> groups;
   for (std::size_t s = 0; s < kTurbineStatuses.size(); ++s)
@@ -55,6 +63,8 @@ std::vector<TurbineGroup> groups_by_status(const std::vector<Turbine>& turbines)
                                    [&](const Turbine& t) { return t.status == static_cast<TurbineStatus>(s); }));
   groups.push_back(turbines_that(turbines, "", kFarmColours.front(), [](const Turbine& t) { return !t.status; }));
   std::erase_if(groups, [](const TurbineGroup& group) { return group.turbines.empty(); });
+  for (TurbineGroup& group : groups)
+    if (const auto farm = only_farm(turbines, group)) group.name = name_of_farm(turbines, *farm);
   return groups;
 }
 
