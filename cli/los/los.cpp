@@ -142,9 +142,9 @@ class LosVerb final : public Verb {
     return {reports_.title(link.id), people_.facts(), link.from_name, link.to_name, reports_.table_spacing_m()};
   }
 
-  static void add_map(const Store& store, const LosHeader& header, std::span<const profile::Link> others, LosCase& one,
-                      Progress& progress) {
-    viewshed::LocationOptions options{.others = others};
+  void add_map(const Store& store, const LosHeader& header, std::span<const profile::Link> others, LosCase& one,
+               Progress& progress) const {
+    viewshed::LocationOptions options{.others = others, .themes = line_.themes()};
     if (!header.from_name.empty()) options.from_name = header.from_name;
     if (!header.to_name.empty()) options.to_name = header.to_name;
     one.report.location = viewshed::location_map(store, one.report, options, progress);

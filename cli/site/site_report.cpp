@@ -97,11 +97,6 @@ std::string left_open(const viewshed::SitePlan& r) {
   return r.undecided == 0 ? "" : fmt::format("<p>Undecided: {}.</p>\n", escaped_markup(undecided_in_words(r)));
 }
 
-/// What the demand is counted in, where it has no weights.
-const char* unit_of_demand(const viewshed::SiteDemand& demand) {
-  return demand.is_cells_in_reach() ? " cells" : demand.premises ? " premises" : "";
-}
-
 std::string summary(const viewshed::SitePlan& r) {
   if (r.request.turbines) {
     std::string least = least_in_words(r);
@@ -117,8 +112,8 @@ std::string summary(const viewshed::SitePlan& r) {
   if (!cost.empty()) cost.front() = 'T', cost = "<p>" + cost + ".</p>\n";
   return fmt::format("<p class=\"headline\">{}: {} of a demand of {}{} ({:.1f} %){}. {}</p>\n{}{}<p>{}{}</p>\n",
                      r.leaves_open ? "Certainly served" : "Served", amount(r.served()),
-                     amount(r.in_metric(r.inputs.total)), unit_of_demand(r.request.demand), r.served_percent(),
-                     existing, best_possible(r), cost, left_open(r), times_surveyed(r), exchanges(r));
+                     amount(r.in_metric(r.inputs.total)), unit_of_demand(r), r.served_percent(), existing,
+                     best_possible(r), cost, left_open(r), times_surveyed(r), exchanges(r));
 }
 
 /// Returns the routes to the hub, where there is one, and the rule by which they are chosen.

@@ -10,6 +10,7 @@
 #include <viewshed/site_wording.hpp>
 
 #include "output/store_document.hpp"
+#include "site/site_wording.hpp"
 
 namespace itin::cli {
 
@@ -51,11 +52,13 @@ std::string fraction_clear(const viewshed::SiteLink& link) {
   return link.found().fresnel ? fmt::format("{:.2f}", link.found().fresnel->fraction) : "";
 }
 
-}  // namespace
-
-std::string amount(double v) {
-  return v == std::floor(v) && v < 1e15 ? grouped(static_cast<std::uint64_t>(v)) : fmt::format("{:.6g}", v);
+/// Heads a column of quantities of the demand: "Adds, cells".
+std::string of_demand(const char* what, const viewshed::SitePlan& r) {
+  const std::string unit = unit_of_demand(r);
+  return what + (unit.empty() ? "" : "," + unit);
 }
+
+}  // namespace
 
 /// What the table of chosen sites tells only where it differs from site to site, or from what stands beside it.
 struct SiteColumns {
@@ -77,7 +80,7 @@ std::string sites_html(const viewshed::SitePlan& r) {
   std::vector<std::string> head{"", "Site", "Easting", "Northing", "Mast m", "Ground m"};
   if (shown.base) head.emplace_back("Mast base m");
   if (shown.cost) head.emplace_back("Cost");
-  head.insert(head.end(), {"Adds", "Served together", "Serves alone"});
+  head.insert(head.end(), {of_demand("Adds", r), "Served together", "Serves alone"});
   if (shown.estimate) head.emplace_back("First estimate");
   HtmlTable table(head, 2);
   for (std::size_t i = 0; i < r.choice.chosen.size(); ++i) {
@@ -104,7 +107,7 @@ std::string sites_html(const viewshed::SitePlan& r) {
 std::string turbines_html(const viewshed::SitePlan& r) {
   const bool heights = r.request.sums_heights(), open = r.leaves_open;
   const char* const shows = open ? "May show m" : "Shows m";
-  HtmlTable table({"", "Turbine", "Easting", "Northing", "Ground m", heights ? shows : "Adds", "Together",
+  HtmlTable table({"", "Turbine", "Easting", "Northing", "Ground m", heights ? shows : of_demand("Adds", r), "Together",
                    open ? "May be seen from, alone" : "Seen from, alone"},
                   2);
   for (std::size_t i = 0; i < r.choice.chosen.size(); ++i) {

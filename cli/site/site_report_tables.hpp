@@ -7,9 +7,6 @@
 
 namespace itin::cli {
 
-/// Returns a part of the demand in figures, with commas where it is a whole number.
-std::string amount(double v);
-
 std::string sites_html(const viewshed::SitePlan& r);
 std::string turbines_html(const viewshed::SitePlan& r);
 /// Returns a table of the first points of the demand that are not served, and says how many there are.

@@ -11,6 +11,16 @@
 
 namespace itin::cli {
 
+std::string amount(double quantity) {
+  const bool is_whole = quantity == std::floor(quantity) && quantity < 1e15;
+  return is_whole ? grouped(static_cast<std::uint64_t>(quantity)) : fmt::format("{:.6g}", quantity);
+}
+
+const char* unit_of_demand(const viewshed::SitePlan& r) {
+  const viewshed::SiteDemand& demand = r.request.demand;
+  return demand.is_cells_in_reach() ? " cells" : demand.premises ? " premises" : "";
+}
+
 std::string certainly(const viewshed::SitePlan& r) {
   return r.leaves_open ? "certainly " : "";
 }
@@ -25,11 +35,12 @@ std::string undecided_in_words(const viewshed::SitePlan& r) {
 
 std::string served_in_words(const viewshed::SitePlan& r) {
   const std::size_t chosen = r.choice.chosen.size(), existing = r.inputs.existing();
-  return fmt::format("which {}{}serve{} {:.10g} of a demand of {:.10g} ({:.1f} %)",
+  return fmt::format("which {}{}serve{} {} of a demand of {}{} ({:.1f} %)",
                      existing > 0 ? fmt::format("together with {} ", counted(existing, "existing site"))
                      : chosen > 1 ? "together "
                                   : "",
-                     certainly(r), chosen == 1 ? "s" : "", r.served(), r.in_metric(r.inputs.total), r.served_percent());
+                     certainly(r), chosen == 1 ? "s" : "", amount(r.served()), amount(r.in_metric(r.inputs.total)),
+                     unit_of_demand(r), r.served_percent());
 }
 
 std::string cost_in_words(const viewshed::SitePlan& r) {
@@ -45,21 +56,22 @@ std::string cost_in_words(const viewshed::SitePlan& r) {
 
 std::string least_in_words(const viewshed::SitePlan& r) {
   const bool open = r.undecided > 0;
-  const std::string proved = r.is_best() ? "proved to be the least there is"
-                                         : fmt::format("no choice has less than {:.10g} (gap {:.1f} %)",
-                                                       r.in_metric(r.choice.lower_bound), gap_percent(r.choice));
+  const std::string proved = r.is_best()
+                                 ? "proved to be the least there is"
+                                 : fmt::format("no choice has less than {} (gap {:.1f} %)",
+                                               amount(r.in_metric(r.choice.lower_bound)), gap_percent(r.choice));
   if (r.request.sums_heights())
     return fmt::format("visible height, summed: {}{:.10g} m; {}", open ? "at most " : "", r.in_metric(r.choice.value),
                        proved);
   const std::string existing =
       r.choice.existing > 0
-          ? fmt::format(", besides {:.10g} from which {} {}seen already", r.in_metric(r.choice.existing),
+          ? fmt::format(", besides {} from which {} {}seen already", amount(r.in_metric(r.choice.existing)),
                         r.inputs.existing() == 1 ? "an existing one is" : "existing ones are", certainly(r))
           : "";
   return fmt::format(
-      "{} of a turbine {} seen from {:.10g} of a demand of {:.10g} ({:.1f} %){}; {}",
-      minimised_part(*r.request.turbines), open ? "may be" : "is", r.in_metric(r.choice.value),
-      r.in_metric(r.inputs.total),
+      "{} of a turbine {} seen from {} of a demand of {}{} ({:.1f} %){}; {}", minimised_part(*r.request.turbines),
+      open ? "may be" : "is", amount(r.in_metric(r.choice.value)), amount(r.in_metric(r.inputs.total)),
+      unit_of_demand(r),
       r.inputs.total == 0 ? 0 : 100 * static_cast<double>(r.choice.value) / static_cast<double>(r.inputs.total),
       existing, proved);
 }

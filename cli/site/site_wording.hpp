@@ -7,6 +7,12 @@
 
 namespace itin::cli {
 
+/// Returns a quantity of demand, in whole numbers or six digits: "47,873".
+std::string amount(double quantity);
+
+/// Returns what a quantity of the demand counts, where it has no weights, with a space before it: " cells".
+const char* unit_of_demand(const viewshed::SitePlan& plan);
+
 /// Returns "certainly " where ground without data leaves something open; otherwise an empty text.
 std::string certainly(const viewshed::SitePlan& plan);
 

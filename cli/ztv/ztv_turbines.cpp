@@ -11,10 +11,6 @@
 
 namespace itin::cli {
 
-TurbineOptions::TurbineOptions(Use use) : use_(use) {
-  if (use != Use::zone) file_.status_field.clear();
-}
-
 void TurbineOptions::declare(CLI::App& app) {
   begin_group(app, "Turbines");
   const std::string bits = use_ == Use::zone ? ". Turbine k has bit k - 1 in turbines.tif" : "";
@@ -37,16 +33,16 @@ void TurbineOptions::declare(CLI::App& app) {
   field("--rotor-diameter-field", file_.rotor_diameter_field, "rotor diameters");
   field("--tip-height-field", file_.tip_height_field, "heights of blade tips");
   field("--farm-field", file_.farm_field, "farms");
-  if (use_ == Use::zone) {
-    field(
-        "--status-field", file_.status_field,
-        "whether each is proposed, consented or existing: with others, the study area is about the proposed ones, and "
-        "what they add is told");
-    app.add_option("--proposal", file_.proposal,
-                   "The farm that is the proposal; other farms, proposed ones too, stand beside it (default: all "
-                   "proposed turbines)")
-        ->type_name("FARM");
-  }
+  field(
+      "--status-field", file_.status_field,
+      use_ == Use::zone
+          ? "whether each is proposed, consented or existing: with others, the study area is about the proposed ones, "
+            "and what they add is told"
+          : "whether each is proposed, consented or existing, as the map and the layer of turbines tell");
+  app.add_option("--proposal", file_.proposal,
+                 "The farm that is the proposal; other farms, proposed ones too, stand beside it (default: all "
+                 "proposed turbines)")
+      ->type_name("FARM");
   size_.declare(app, "of turbines whose row gives none");
   app.add_option("--farm", file_.farm, "Farm of turbines whose row gives none")->type_name("NAME");
   in_crs_.declare(app);
@@ -81,7 +77,7 @@ Document TurbineOptions::parameters() const {
     parameters["rotor_diameter_field"] = file_.rotor_diameter_field;
   if (file_.tip_height_field != usual.tip_height_field) parameters["tip_height_field"] = file_.tip_height_field;
   if (file_.farm_field != usual.farm_field) parameters["farm_field"] = file_.farm_field;
-  if (use_ == Use::zone && file_.status_field != usual.status_field) parameters["status_field"] = file_.status_field;
+  if (file_.status_field != usual.status_field) parameters["status_field"] = file_.status_field;
   text("proposal", file_.proposal), text("farm", file_.farm), text("in_crs", in_crs_.crs);
   return parameters;
 }

@@ -14,9 +14,9 @@ namespace itin::cli {
 
 class TurbineOptions {
  public:
-  /// What the turbines are for: a zone tells which of them are proposed, and numbers them in its rasters.
+  /// What the turbines are for: a zone is studied about those that are proposed, and numbers all in its rasters.
   enum class Use { zone, dwellings };
-  explicit TurbineOptions(Use use);
+  explicit TurbineOptions(Use use) : use_(use) {}
   void declare(CLI::App& app);
   /// Checks the options. Throws InputError.
   void validate();

@@ -39,6 +39,8 @@ TEST(Drawing, BreaksAtBlanksWhereWordsFit) {
   EXPECT_EQ(drawing.lines("hub and tip", drawing.text_width("hub and", kPlain), kPlain),
             (std::vector<std::string>{"hub and", "tip"}));
   EXPECT_EQ(drawing.lines("", 10, kPlain), (std::vector<std::string>{""}));
+  EXPECT_EQ(drawing.lines("eyes 2 m (25.5 %) up", drawing.text_width("eyes 2 m (25.5", kPlain), kPlain),
+            (std::vector<std::string>{"eyes 2 m", "(25.5 %) up"}));
 }
 
 /// Less than one character is never drawn.

@@ -8,6 +8,8 @@
 #include <random>
 #include <set>
 #include <sstream>
+#include <string>
+#include <tuple>
 
 #include <gdal_priv.h>
 #include <gtest/gtest.h>
@@ -189,7 +191,7 @@ TEST(Turbines, FarmsOfSouthWales) {
   request.turbines.back().position = {288500, 193200}, request.turbines.back().radius = 12000;
   request.cell_size = 400;
   const Zone zone = survey(*tin, request);
-  EXPECT_THAT(farms_of(zone), ::testing::SizeIs(3));
+  EXPECT_THAT(farms_of(zone.request.turbines), ::testing::SizeIs(3));
   const test::ExactLineOfSight exact(*tin, request.earth);
   int seen = 0, hidden = 0;
   for (std::int64_t row = 2; row < zone.grid.rows(); row += 19) {
@@ -367,6 +369,55 @@ TEST(Bands, HoldEveryValueOnce) {
   EXPECT_EQ(band_of(limit_bands({10, 25}, "m"), 1000), 3U);
 }
 
+/// Cells of more turbines are darker, whatever is printed in grey.
+TEST(Bands, DarkenFromFewToMany) {
+  const auto light = [](const Rgba& c) { return 0.2126 * c.red + 0.7152 * c.green + 0.0722 * c.blue; };
+  for (const std::size_t most : {1U, 2U, 5U, 75U}) {
+    const auto bands = count_bands(most);
+    for (std::size_t i = 2; i < bands.size(); ++i)
+      EXPECT_LT(light(bands[i].colour), light(bands[i - 1].colour)) << most << ", band " << i;
+  }
+  const auto losses = loss_bands();
+  for (std::size_t i = 1; i < losses.size(); ++i)
+    EXPECT_GT(light(losses[i].colour), light(losses[i - 1].colour)) << losses[i].label;
+}
+
+/// Each turbine is in one group, and groups differ in colour.
+TEST(TurbineGroups, AreFarmsOrElseStatuses) {
+  using enum TurbineStatus;
+  for (const std::size_t farms : {1U, 3U, 8U, 9U, 20U}) {
+    std::vector<Turbine> turbines;
+    for (std::size_t n = 1; n <= 2 * farms; ++n) {
+      turbines.push_back(turbine(n, 100.0 * static_cast<double>(n), 0, "F" + std::to_string(n % farms)));
+      turbines.back().status = n % farms == 1 % farms ? kProposed : kExisting;
+    }
+    const std::vector<TurbineGroup> groups = turbine_groups(turbines);
+    EXPECT_EQ(groups.size(), farms <= 8 ? farms : 2U);
+    std::set<std::tuple<int, int, int>> colours;
+    std::set<std::size_t> grouped;
+    for (const TurbineGroup& group : groups) {
+      colours.insert({group.colour.red, group.colour.green, group.colour.blue});
+      for (const std::size_t t : group.turbines) {
+        EXPECT_TRUE(grouped.insert(t).second);
+        const std::string status = turbines[t].status == kProposed ? "roposed" : "xisting";
+        EXPECT_THAT(group.name, ::testing::EndsWith(status));
+        EXPECT_THAT(group.name, ::testing::StartsWith(farms <= 8 ? turbines[t].farm + ", " : ""));
+      }
+    }
+    EXPECT_EQ(colours.size(), groups.size());
+    EXPECT_EQ(grouped.size(), turbines.size());
+  }
+}
+
+TEST(TurbineGroups, HaveNoStatusThatIsNotOfAll) {
+  std::vector<Turbine> turbines{turbine(1, 0, 0, "A"), turbine(2, 100, 0, "A"), turbine(3, 200, 0, "")};
+  turbines[0].status = TurbineStatus::kProposed;
+  const std::vector<TurbineGroup> groups = turbine_groups(turbines);
+  ASSERT_EQ(groups.size(), 2U);
+  EXPECT_EQ(groups[0].name, "A");
+  EXPECT_EQ(groups[1].name, "");
+}
+
 /// Of few farms the value is their bits, of many a number; it always has the name of those whose tips are seen.
 TEST(FarmCombinations, NameTheFarmsSeenHoweverMany) {
   const Tin tin = test::fractal_tin(33, 50, 400, 0.5, 5);
@@ -377,7 +428,7 @@ TEST(FarmCombinations, NameTheFarmsSeenHoweverMany) {
       request.turbines.push_back(turbine(n, 30.0 * static_cast<double>(1 + n * 7 % 40),
                                          30.0 * static_cast<double>(1 + n * 11 % 45), "F" + std::to_string(n % farms)));
     const Zone zone = survey(tin, request);
-    const std::vector<std::string> names = farms_of(zone);
+    const std::vector<std::string> names = farms_of(zone.request.turbines);
     ASSERT_EQ(names.size(), farms);
     const std::vector<std::uint32_t> values = farm_combinations(zone, zone.bare);
     const std::vector<Combination> present = combinations_present(zone, {&values});
@@ -482,7 +533,7 @@ TEST(Areas, SumUpToTheCellsWithAValue) {
                                    [](std::uint16_t n) { return n != kCountOutside; });
   EXPECT_NEAR(hub, static_cast<double>(cells) * 0.0025, 1e-4);
   EXPECT_NEAR(tip, hub, 1e-9);
-  EXPECT_THAT(farms_of(zone), ::testing::ElementsAre("A", "B"));
+  EXPECT_THAT(farms_of(zone.request.turbines), ::testing::ElementsAre("A", "B"));
 }
 
 TEST(LinkExclusion, FollowsBaconsRadius) {

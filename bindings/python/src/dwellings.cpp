@@ -76,7 +76,7 @@ viewshed::FlickerRules flicker_rules_of(const py::dict& fields) {
 
 viewshed::DwellingsRequest dwellings_request_of(const py::dict& fields, const Store& store) {
   viewshed::DwellingsRequest request;
-  request.turbines = turbines_of(fields, store.metadata().crs_wkt, {.status_field = ""});
+  request.turbines = turbines_of(fields, store.metadata().crs_wkt);
   request.dwellings = dwellings_of(fields, store);
   take(fields, "dwelling_theme", request.dwelling_theme);
   take(fields, "radius", request.radius);

@@ -157,7 +157,8 @@ void write_line(const LineOfSight& line, const std::string& path, bool overwrite
   profile::require_report(line.report, path);
   run(py::none(), [&](Progress& progress) {
     profile::LosReport report = line.report;
-    if (profile::shows_location(path)) report.location = viewshed::location_map(*line.store, report, {}, progress);
+    if (profile::shows_location(path))
+      report.location = viewshed::location_map(*line.store, report, {.themes = line.line.themes}, progress);
     profile::write_report(report, line.json(), path, overwrite);
   });
 }

@@ -62,6 +62,8 @@ struct SourceInfo {
   std::uint64_t features = 0;
   std::vector<AttributeField> fields = {};
   std::optional<double> wall_offset = {};  ///< metres, where its import said so; see ThemeInfo::wall_offset
+  std::string heights_from = {};  ///< the raster that gave its features heights: name and checksum; empty: none
+  bool states_heights = true;     ///< false: all heights of its features are of that raster
 };
 
 struct StoreMetadata {

@@ -18,5 +18,7 @@ struct FeatureClass {
 
 std::string line_style(const std::string& field, std::span<const FeatureClass> classes, double width_mm);
 std::string point_style(const std::string& field, std::span<const FeatureClass> classes);
+/// The style of a layer whose points are all of one class.
+std::string point_style(const FeatureClass& all);
 
 }  // namespace itin

@@ -23,7 +23,8 @@ class StatedHeights {
   /// here.
   std::optional<HeightAxis> of(const SourceInfo& source) const;
   /// Returns "heights above a datum that is not stated, unit: metre"; for features, whose heights may count from the
-  /// ground or from a base, "heights of features, unit: metre"; empty where nothing is known.
+  /// ground or from a base, "heights of features, unit: metre", or "heights of features from dsm.tif"; empty where
+  /// nothing is known.
   std::string text_of(const SourceInfo& source) const;
 
  private:

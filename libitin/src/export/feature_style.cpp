@@ -58,4 +58,8 @@ std::string point_style(const std::string& field, std::span<const FeatureClass> 
   });
 }
 
+std::string point_style(const FeatureClass& all) {
+  return point_style(fmt::format("'{}'", all.name), {&all, 1});  // QGIS takes the field's name for an expression
+}
+
 }  // namespace itin

@@ -74,6 +74,8 @@ ordered_json source_to_json(const SourceInfo& source) {
   if (source.features > 0) j["features"] = source.features;
   if (!source.fields.empty()) j["fields"] = fields_to_json(source.fields);
   if (source.wall_offset) j["wall_offset_m"] = *source.wall_offset;
+  if (!source.heights_from.empty()) j["heights_from"] = source.heights_from;
+  if (!source.states_heights) j["states_heights"] = false;
   return j;
 }
 
@@ -94,6 +96,8 @@ SourceInfo source_from_json(const json& j) {
   source.features = j.value("features", std::uint64_t{0});
   source.fields = fields_from_json(j.value("fields", json::array()));
   if (j.contains("wall_offset_m")) source.wall_offset = j.at("wall_offset_m").get<double>();
+  source.heights_from = j.value("heights_from", "");
+  source.states_heights = j.value("states_heights", true);
   return source;
 }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <iterator>
 #include <sstream>
 
 #include <itin/file_ending.hpp>
@@ -10,6 +9,32 @@
 #include "drawing/surface.hpp"
 
 namespace itin::profile {
+
+namespace {
+
+/// Tells whether a word is the unit of the number that ends the word before it, with punctuation behind: "km²)".
+bool is_unit_of(const std::string& number, const std::string& word) {
+  constexpr std::array kUnits{"%", "m", "km", "m²", "km²", "dB", "dBi", "dBm", "GHz", "h", "min", "°"};
+  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+  const std::string unit = word.substr(0, word.find_last_not_of(",.;:)") + 1);
+  return !number.empty() && is_digit(number.back()) && std::find(kUnits.begin(), kUnits.end(), unit) != kUnits.end();
+}
+
+/// Returns the words of a text. A number and its unit are one word.
+std::vector<std::string> unbroken_words(const std::string& text) {
+  std::vector<std::string> words;
+  std::istringstream blanks(text);
+  for (std::string word; blanks >> word;) {
+    if (!words.empty() && is_unit_of(words.back(), word)) {
+      words.back() += " " + word;
+    } else {
+      words.push_back(word);
+    }
+  }
+  return words;
+}
+
+}  // namespace
 
 std::optional<Drawing::Format> Drawing::format_of(const std::string& path) {
   const std::string ending = ending_of(path);
@@ -79,8 +104,7 @@ void Drawing::text(Point2 anchor, const std::string& text, const Lettering& lett
 
 std::vector<std::string> Drawing::lines(const std::string& text, double width, const Lettering& lettering) const {
   std::vector<std::string> lines(1);
-  std::istringstream words(text);
-  for (std::string word; words >> word;) {
+  for (const std::string& word : unbroken_words(text)) {
     const std::string longer = lines.back().empty() ? word : lines.back() + " " + word;
     if (text_width(longer, lettering) <= width) {
       lines.back() = longer;
@@ -113,8 +137,8 @@ std::size_t Drawing::end_within(const std::string& word, double width, const Let
 Lettering Drawing::lettering_for(const std::string& text, double width, std::size_t most, Lettering lettering) const {
   constexpr double kLeast = 5, kStep = 0.5;
   const auto fits = [&] {
-    std::istringstream words(text);
-    const bool breaks_words = std::any_of(std::istream_iterator<std::string>(words), {},
+    const std::vector<std::string> words = unbroken_words(text);
+    const bool breaks_words = std::any_of(words.begin(), words.end(),
                                           [&](const std::string& word) { return text_width(word, lettering) > width; });
     return !breaks_words && lines(text, width, lettering).size() <= most;
   };

@@ -76,7 +76,8 @@ class Drawing {
   /// The text cut to a width, with an ellipsis.
   std::string fitted(std::string text, double width, const Lettering& lettering) const;
 
-  /// The text broken into lines of a width: at blanks, and within words that are longer than a line.
+  /// The text broken into lines of a width: at blanks, but for those between a number and its unit, and within words
+  /// that are longer than a line.
   std::vector<std::string> lines(const std::string& text, double width, const Lettering& lettering) const;
   /// Returns this lettering, or one just small enough for the text to stand in `most` lines of a width without a broken
   /// word; 5 points at least.

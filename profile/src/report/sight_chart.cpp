@@ -87,7 +87,9 @@ class SightChart {
       high = std::max({high, p.ground_m + curve, ray(d) + radius(d)});
     }
     if (report_.query.object) high = std::max(high, report_.stands_on.to_m + report_.query.object->tip_m);
-    if (const auto edge = bullington()) high = std::max(high, edge->elevation_m + bulge(edge->distance_m));
+    // Bullington's edge may be far above all that there is: beyond as much height again, its lines leave the frame.
+    if (const auto edge = bullington())
+      high = std::max(high, std::min(edge->elevation_m + bulge(edge->distance_m), high + (high - low)));
     const double span = std::max({high - low, length_ / 200, 1.0});
     return {low - 0.10 * span, high + 0.22 * span};
   }

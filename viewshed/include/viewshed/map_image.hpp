@@ -96,6 +96,7 @@ MapImage draw_perspective(const Tin& tin, const PerspectiveOptions& options);
 struct LocationOptions {
   std::string from_name = "A", to_name = "B";
   std::span<const profile::Link> others = {};  ///< neighbours, in grey; the line itself may be among them
+  ThemeChoice themes = ThemeChoice::none();    ///< those of the line's surface: outlines of its buildings are drawn
 };
 
 /// Draws where a line over a store runs, over the relief of its surroundings, for profile::LosReport::location. Throws

@@ -14,6 +14,7 @@
 #include <viewshed/map_image.hpp>
 #include <viewshed/missing_ground.hpp>
 #include <viewshed/result_map.hpp>
+#include <viewshed/turbines.hpp>
 
 namespace itin::viewshed {
 
@@ -36,6 +37,15 @@ bool is_named(const Observer& observer);
 std::string counted_observers(const std::vector<Observer>& observers);
 /// The observers of a viewshed. A single one that is only a number has no label.
 MapObjects observer_objects(const std::vector<Observer>& observers, const std::string& key = "");
+
+/// Turbines, with their numbers, in the colours of turbine_groups(). The legend says of how many no hub height is known
+/// where the map is one of hubs.
+MapObjects turbine_objects(const std::vector<Turbine>& turbines, bool of_hubs = false);
+
+/// The outlines of the buildings of these themes that stand in the box, exact to a tenth of a pixel in a picture 1000
+/// pixels long. Buildings smaller than two pixels, which would be blots, are left out. Nothing where there are none.
+/// Throws CorruptStore.
+MapObjects building_objects(const Store& store, const ThemeChoice& themes, const Box& box);
 
 /// The places where the map is striped as without ground, and what the legend says about them; both empty if there are
 /// none. `there` is called on any thread.

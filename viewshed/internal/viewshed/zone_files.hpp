@@ -10,10 +10,13 @@
 // every raster lies NAME.qml.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include <itin/feature_style.hpp>
 #include <viewshed/turbines.hpp>
 #include <viewshed/zone_study.hpp>
 
@@ -36,11 +39,34 @@ struct LinkStudy {
   double rotor_radius_m = 0;  ///< the greatest of the turbines
 };
 
-/// Returns the farms of a zone in the order of their first turbines.
-std::vector<std::string> farms_of(const Zone& zone);
+/// The classes of TurbineStatus, in its order.
+inline constexpr std::array<FeatureClass, 4> kTurbineStatuses{{{"proposed", "Proposed", {213, 94, 0}},
+                                                               {"in planning", "In planning", {230, 159, 0}},
+                                                               {"consented", "Consented", {204, 121, 167}},
+                                                               {"existing", "Existing", {60, 60, 60}}}};
+
+/// Returns the farms of turbines in the order of their first turbines.
+std::vector<std::string> farms_of(const std::vector<Turbine>& turbines);
 /// Returns a colour for each of these farms, on maps, wirelines and layers alike: dark enough for thin lines, and told
 /// apart with every kind of colour blindness. Where the farms are too many to be told apart, all have one colour.
-std::vector<Rgba> farm_colours(const Zone& zone);
+std::vector<Rgba> farm_colours(const std::vector<Turbine>& turbines);
+
+/// Returns the name of a turbine's status; empty where it is not known.
+const char* planning_status(const Turbine& turbine);
+/// Returns the style of a layer of turbines that has the fields planning_status and farm: in colours by their status
+/// where some are proposed and others are not, else by their farms.
+std::string turbine_style(const std::vector<Turbine>& turbines);
+
+/// Turbines that have one colour on maps and wirelines.
+struct TurbineGroup {
+  std::string name;  ///< as legends have it: "Pen y Cymoedd, existing"; may be empty
+  Rgba colour;
+  std::vector<std::size_t> turbines;  ///< their indices, ascending
+};
+/// Returns the groups of turbines: farms in the order of farms_of(), with the status that all turbines of the farm
+/// have; where the farms are too many to be told apart, the statuses that occur; without statuses all turbines are one
+/// group.
+std::vector<TurbineGroup> turbine_groups(const std::vector<Turbine>& turbines);
 
 /// Counts the turbines whose hub height is known; others do not count among the hubs.
 std::size_t known_hubs(const Zone& zone);

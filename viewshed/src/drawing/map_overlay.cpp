@@ -28,7 +28,7 @@ constexpr double kOpacity = 0.55;  ///< how opaque what is seen is drawn
 constexpr int kSteps = 5;
 constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
 
-/// The colours of observers, features and steps of losses, without amber, which is for the undecided.
+/// The colours of observers and features, without amber, which is for the undecided.
 constexpr std::array<Rgba, 7> kPalette{
     {{0, 114, 178}, {73, 0, 146}, {0, 158, 115}, {204, 121, 167}, {86, 180, 233}, {213, 94, 0}, {240, 228, 66}}};
 
@@ -310,14 +310,15 @@ void MapOverlay::scale_probabilities() {
 
 void MapOverlay::scale_losses() {
   title_ = "Diffraction loss, dB";
-  constexpr std::array<Rgba, kLossLimitsDb.size()> kColours{{kPalette[4], kPalette[2], kPalette[6], kPalette[5]}};
-  add_step(0, {kPalette[0], kOpacity}, "0");
   double from = 0;
-  for (std::size_t i = 0; i < kLossLimitsDb.size(); ++i) {
-    add_step(kLossLimitsDb[i], {kColours[i], kOpacity}, range_text(from, kLossLimitsDb[i]));
-    from = kLossLimitsDb[i];
+  for (const ValueBand& band : loss_bands()) {
+    const bool last = !std::isfinite(band.to);
+    add_step(band.to, {band.colour, kOpacity},
+             band.to == 0 ? "0"
+             : last       ? fmt::format("> {:.10g}", from)
+                          : range_text(from, band.to));
+    from = band.to;
   }
-  add_step(kInfinity, {kPalette[3], kOpacity}, fmt::format("> {:.10g}", from));
 }
 
 void MapOverlay::scale_levels() {

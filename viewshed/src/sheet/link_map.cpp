@@ -21,6 +21,7 @@ using profile::SheetKey;
 using profile::SheetSymbol;
 
 constexpr Rgba kOtherColour{105, 105, 105, 255}, kEndColour{20, 60, 140, 255};
+constexpr profile::PaperSize kMapPaper = profile::PaperSize::kA4;
 constexpr double kLineWidth = 0.6, kOtherWidth = 0.3;
 
 /// A line in parts: its label finds a place at an end of one of them.
@@ -63,17 +64,26 @@ MapObjects end_objects(std::vector<profile::SheetMark> marks, std::string text) 
           {{SheetKey::Sample::kMark, {kEndColour}, std::move(text), SheetSymbol::kMast}}};
 }
 
-std::shared_ptr<const profile::MapSheet> drawn(const Store& store, const Box& lines, std::vector<MapObjects> objects,
-                                               profile::TitleBlock title, const std::string& report,
-                                               Progress& progress) {
-  std::erase_if(objects, [](const MapObjects& o) { return o.layers.empty(); });
+/// The ground in the frame of a map that shows this box.
+Box ground_about(const Box& shown) {
+  profile::MapSheet sheet;
+  sheet.paper = kMapPaper, sheet.area = shown;
+  return profile::ground_in_frame(sheet);
+}
+
+/// Draws the objects, with the buildings of the themes under them.
+std::shared_ptr<const profile::MapSheet> drawn(const Store& store, const Box& lines, const ThemeChoice& themes,
+                                               std::vector<MapObjects> objects, profile::TitleBlock title,
+                                               const std::string& report, Progress& progress) {
   const Box shown = surroundings(lines);
-  title.sources = described(sources_in(store, shown, ThemeChoice::none()), store.metadata());
+  objects.insert(objects.begin(), building_objects(store, themes, ground_about(shown)));
+  std::erase_if(objects, [](const MapObjects& o) { return o.layers.empty(); });
+  title.sources = described(sources_in(store, shown, themes), store.metadata());
   const ResultSheet sheet = object_sheet(shown, std::move(objects), std::move(title));
   profile::SheetChoice choice;
   choice.project = report;
-  const MapBase base = base_of(store, sheet, profile::PaperSize::kA4, choice, progress);
-  return std::make_shared<const profile::MapSheet>(map_sheet(store, sheet, base, profile::PaperSize::kA4, choice));
+  const MapBase base = base_of(store, sheet, kMapPaper, choice, progress);
+  return std::make_shared<const profile::MapSheet>(map_sheet(store, sheet, base, kMapPaper, choice));
 }
 
 /// The neighbours that a map of this box shows. Their names stand beside them.
@@ -141,7 +151,7 @@ std::shared_ptr<const profile::MapSheet> location_map(const Store& store, const 
   profile::TitleBlock title;
   title.title = "Location";
   title.facts = {{"Length", profile::distance_text(report.profile.length_m, unit_of(report))}};
-  return drawn(store, line, std::move(objects), std::move(title), report.title, progress);
+  return drawn(store, line, options.themes, std::move(objects), std::move(title), report.title, progress);
 }
 
 std::shared_ptr<const profile::MapSheet> links_map(const Store& store, const profile::LinkSurvey& survey,
@@ -162,7 +172,7 @@ std::shared_ptr<const profile::MapSheet> links_map(const Store& store, const pro
   objects.push_back(ends_of(survey.table.links));
   profile::TitleBlock block;
   block.title = "Map of the links";
-  return drawn(store, box, std::move(objects), std::move(block), title, progress);
+  return drawn(store, box, survey.query.themes, std::move(objects), std::move(block), title, progress);
 }
 
 }  // namespace itin::viewshed

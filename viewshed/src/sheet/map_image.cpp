@@ -38,11 +38,12 @@ std::string subtitle_of(const Result& result) {
     return o.height == first.height && o.absolute == first.absolute;
   });
   std::string text = r.observers.size() == 1 ? observer_text(first) : counted_observers(r.observers);
-  const auto height = [](double metres, bool absolute) {
-    return fmt::format("{} {:g} m {}", absolute ? " at" : "", metres, absolute ? "elevation" : "above ground");
+  const auto height = [](double metres, bool absolute, bool on_surface) {
+    const char* const above = on_surface ? "above the surface" : "above ground";
+    return fmt::format("{} {:g} m {}", absolute ? " at" : "", metres, absolute ? "elevation" : above);
   };
-  if (alike) text += height(first.height, first.absolute);
-  if (r.mode != Mode::kHeight) text += ", target" + height(r.target_height, r.target_absolute);
+  if (alike) text += height(first.height, first.absolute, r.observers_on_surface);
+  if (r.mode != Mode::kHeight) text += ", target" + height(r.target_height, r.target_absolute, r.targets_on_surface);
   if (r.radius) text += ", within " + length_text(*r.radius);
   text += fmt::format("; cells of {}", length_text(result.grid.cell_width()));
   return text;

@@ -1,20 +1,16 @@
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <set>
 #include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <itin/coordinates.hpp>
-#include <itin/counted.hpp>
 #include <itin/in_ring.hpp>
 #include <itin/parallel.hpp>
 #include <itin/surface_text.hpp>
 #include <itin/void_stripes.hpp>
 #include <viewshed/result_sheet.hpp>
-#include <viewshed/sector_names.hpp>
 
 namespace itin::viewshed {
 
@@ -112,21 +108,6 @@ void for_each_pixel(profile::SheetCells& picture, const Visit& visit) {
   });
 }
 
-/// Returns one mark for those at one place, which are the sectors of a mast.
-std::vector<profile::SheetMark> one_each_place(const std::vector<profile::SheetMark>& marks) {
-  std::vector<profile::SheetMark> places;
-  std::vector<std::vector<std::string>> names;
-  std::map<std::pair<double, double>, std::size_t> number_of;
-  for (const profile::SheetMark& mark : marks) {
-    const auto [place, is_new] = number_of.try_emplace({mark.at.x, mark.at.y}, places.size());
-    if (is_new) places.push_back({mark.at, ""}), names.emplace_back();
-    if (!mark.label.empty()) names[place->second].push_back(mark.label);
-  }
-  for (std::size_t i = 0; i < places.size(); ++i)
-    if (!names[i].empty()) places[i].label = names_together(names[i]);
-  return places;
-}
-
 bool has_clear_pixels(const profile::SheetCells& picture) {
   return std::any_of(picture.colours.begin(), picture.colours.end(), [](const Rgba& c) { return c.alpha == 0; });
 }
@@ -147,30 +128,6 @@ bool shows_outside(const profile::SheetCells& picture, const ResultSheet& conten
 std::vector<std::string> sheet_names(const std::string& map, profile::PaperSize paper) {
   const std::string name = fmt::format("sheet-{}-{}", map, profile::name_of(paper));
   return {name + ".pdf", name + ".png"};
-}
-
-MapObjects mast_objects(const std::vector<profile::SheetMark>& masts, std::string key) {
-  return {{profile::SheetMarks{profile::SheetSymbol::kMast, kMastColour, one_each_place(masts)}},
-          {{SheetKey::Sample::kMark, {kMastColour}, std::move(key)}}};
-}
-
-bool is_named(const Observer& observer) {
-  return observer.name.find_first_not_of("0123456789") != std::string::npos;
-}
-
-std::string counted_observers(const std::vector<Observer>& observers) {
-  std::set<std::pair<double, double>> places;
-  for (const Observer& observer : observers) places.insert({observer.position.x, observer.position.y});
-  const std::string all = counted(observers.size(), "observer");
-  return places.size() == observers.size() ? all : all + " at " + counted(places.size(), "place");
-}
-
-MapObjects observer_objects(const std::vector<Observer>& observers, const std::string& key) {
-  std::vector<profile::SheetMark> marks;
-  for (const Observer& observer : observers)
-    marks.push_back({observer.position, observers.size() > 1 || is_named(observer) ? observer.name : ""});
-  const char* const several = observers.size() == 1 ? "Observer" : "Observers";
-  return mast_objects(marks, key.empty() ? several : key);
 }
 
 MissingOnSheet missing_on_sheet(PlacesWithoutGround places, const MissingGround& missing, const std::string& area) {

@@ -1,7 +1,6 @@
 #include "turbines/farm_combinations.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <set>
 #include <utility>
@@ -22,7 +21,7 @@ using FarmSet = std::vector<std::uint32_t>;
 /// Tells which farms are seen from a cell.
 class FarmSets {
  public:
-  explicit FarmSets(const Zone& zone) : zone_(zone), names_(farms_of(zone)), words_(bit_grids(names_.size())) {
+  explicit FarmSets(const Zone& zone) : zone_(zone), names_(farms_of(zone.request.turbines)), words_(bit_grids(names_.size())) {
     // Each farm has the words of its turbines' bits.
     masks_.assign(names_.size(), std::vector<std::uint32_t>(zone.words));
     for (const Turbine& t : zone.request.turbines) {
@@ -86,27 +85,6 @@ std::uint64_t cells_of(const CombinationCells& cells, const Combination& combina
 }
 
 }  // namespace
-
-std::vector<std::string> farms_of(const Zone& zone) {
-  std::vector<std::string> farms;
-  for (const Turbine& t : zone.request.turbines)
-    if (std::find(farms.begin(), farms.end(), t.farm) == farms.end()) farms.push_back(t.farm);
-  return farms;
-}
-
-std::vector<Rgba> farm_colours(const Zone& zone) {
-  constexpr std::array<Rgba, 8> kColours{{{204, 41, 26},
-                                          {0, 89, 178},
-                                          {0, 133, 97},
-                                          {153, 64, 153},
-                                          {191, 115, 0},
-                                          {26, 140, 191},
-                                          {89, 89, 89},
-                                          {105, 60, 20}}};
-  const std::size_t farms = farms_of(zone).size();
-  if (farms > kColours.size()) return std::vector<Rgba>(farms, kColours.front());
-  return {kColours.begin(), kColours.begin() + static_cast<std::ptrdiff_t>(farms)};
-}
 
 std::vector<std::uint32_t> farm_combinations(const Zone& zone, const Visibility& visibility) {
   const FarmSets sets(zone);

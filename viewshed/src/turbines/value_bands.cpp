@@ -14,38 +14,40 @@ namespace itin::viewshed {
 
 namespace {
 
-// Colours from few to many that are told apart over a grey base map with every kind of colour blindness (after Okabe
-// and Ito).
-constexpr std::array<Rgba, 8> kBands{{{240, 228, 66},
-                                      {86, 180, 233},
-                                      {0, 158, 115},
-                                      {0, 114, 178},
-                                      {230, 159, 0},
-                                      {213, 94, 0},
-                                      {204, 121, 167},
-                                      {117, 30, 90}}};
+// Colours of classes without an order, which are told apart over a grey base map with every kind of colour blindness
+// (after Okabe and Ito).
+constexpr std::array<Rgba, 8> kDistinct{{{240, 228, 66},
+                                         {86, 180, 233},
+                                         {0, 158, 115},
+                                         {0, 114, 178},
+                                         {230, 159, 0},
+                                         {213, 94, 0},
+                                         {204, 121, 167},
+                                         {117, 30, 90}}};
 
 ValueBand none() {
   return {0, kNoneSeen, kTransparent};
 }
 
-void colour_bands(std::vector<ValueBand>& bands) {
-  for (std::size_t i = 1; i < bands.size(); ++i) bands[i].colour = kBands[(i - 1) % kBands.size()];
-}
-
 /// The colour of levels that are not enough.
 constexpr Rgba kTooWeak{225, 225, 225};
 
-/// Returns the colour of class i of n in an order: from pale yellow over green to dark blue (after ColorBrewer).
+/// Returns the colour of class i of n in an order: from pale yellow over green to dark blue (after ColorBrewer). A
+/// single class is blue.
 Rgba darkening_colour(std::size_t i, std::size_t n) {
   constexpr std::array<Rgba, 4> kStops{{{237, 248, 177}, {127, 205, 187}, {44, 127, 184}, {8, 29, 88}}};
-  const double at = n < 2 ? 0 : static_cast<double>(i) / static_cast<double>(n - 1) * (kStops.size() - 1);
+  const double at = n < 2 ? 2 : static_cast<double>(i) / static_cast<double>(n - 1) * (kStops.size() - 1);
   const std::size_t stop = std::min(static_cast<std::size_t>(at), kStops.size() - 2);
   const Rgba &a = kStops[stop], &b = kStops[stop + 1];
   const auto mixed = [&](std::uint8_t from, std::uint8_t to) {
     return static_cast<std::uint8_t>(std::lround(from + (to - from) * (at - static_cast<double>(stop))));
   };
   return {mixed(a.red, b.red), mixed(a.green, b.green), mixed(a.blue, b.blue)};
+}
+
+/// Colours the bands above the first, which is of nothing, in their order.
+void colour_bands(std::vector<ValueBand>& bands) {
+  for (std::size_t i = 1; i < bands.size(); ++i) bands[i].colour = darkening_colour(i - 1, bands.size() - 1);
 }
 
 /// Returns the colour after so many golden angles on the circle of hues.
@@ -58,11 +60,11 @@ Rgba hue_after(std::size_t turn) {
   return {channel(0), channel(4), channel(2)};
 }
 
-/// Tells whether a colour may be taken for one of the bands, by the distance of their red, green and blue.
-bool is_near_a_band(const Rgba& colour) {
+/// Tells whether a colour may be taken for one of kDistinct, by the distance of their red, green and blue.
+bool is_near_a_distinct_one(const Rgba& colour) {
   constexpr double kApart = 70;
-  return std::any_of(kBands.begin(), kBands.end(), [&](const Rgba& band) {
-    return std::hypot(colour.red - band.red, colour.green - band.green, colour.blue - band.blue) < kApart;
+  return std::any_of(kDistinct.begin(), kDistinct.end(), [&](const Rgba& other) {
+    return std::hypot(colour.red - other.red, colour.green - other.green, colour.blue - other.blue) < kApart;
   });
 }
 
@@ -130,7 +132,8 @@ std::vector<ValueBand> level_bands(const Request& request) {
 
 std::vector<ValueBand> loss_bands() {
   std::vector<ValueBand> bands = limit_bands({kLossLimitsDb.begin(), kLossLimitsDb.end()}, "dB");
-  bands.front() = {0, "0 dB", {0, 114, 178}};
+  bands.front().label = "0 dB";
+  for (std::size_t i = 0; i < bands.size(); ++i) bands[i].colour = darkening_colour(bands.size() - 1 - i, bands.size());
   return bands;
 }
 
@@ -143,7 +146,10 @@ std::vector<ValueBand> radar_bands() {
 }
 
 std::vector<ValueBand> share_bands() {
-  return limit_bands({0.01, 0.02, 0.05, 0.1, 0.2, 0.5}, "of the ground");
+  constexpr double kPercent = 100;
+  std::vector<ValueBand> bands = limit_bands({1, 2, 5, 10, 20, 50}, "% of the ground");
+  for (ValueBand& band : bands) band.to /= kPercent;
+  return bands;
 }
 
 std::size_t band_of(const std::vector<ValueBand>& bands, double value) {
@@ -152,11 +158,11 @@ std::size_t band_of(const std::vector<ValueBand>& bands, double value) {
 }
 
 Rgba distinct_colour(std::size_t index) {
-  if (index < kBands.size()) return kBands[index];
-  std::size_t left = index - kBands.size();
-  for (std::size_t turn = kBands.size();; ++turn) {
+  if (index < kDistinct.size()) return kDistinct[index];
+  std::size_t left = index - kDistinct.size();
+  for (std::size_t turn = kDistinct.size();; ++turn) {
     const Rgba colour = hue_after(turn);
-    if (!is_near_a_band(colour) && left-- == 0) return colour;
+    if (!is_near_a_distinct_one(colour) && left-- == 0) return colour;
   }
 }
 

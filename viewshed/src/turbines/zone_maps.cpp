@@ -99,7 +99,7 @@ ZoneMap proposal_map(const Zone& zone, const Visibility& visibility) {
 ZoneMap addition_map(const Zone& zone, const Visibility& visibility) {
   ZoneMap map;
   map.title = "Additional visibility: what the proposal adds to other turbines";
-  map.heading = "Blade tips visible of";
+  map.heading = "Whose blade tips are visible";
   for (const AdditionClass& c : kAdditions) map.classes.push_back({c.text, c.colour});
   map.classes.front().label = kNone;
   map.class_of_cell = additions(zone, visibility);
@@ -123,7 +123,7 @@ void add_season(std::vector<ZoneMap>& maps, ZoneMap map, const char* name, const
 
 std::vector<ZoneMap> zone_maps(const Zone& zone, std::size_t most_combinations) {
   std::vector<ZoneMap> maps;
-  const std::size_t farms = farms_of(zone).size();
+  const std::size_t farms = farms_of(zone.request.turbines).size();
   const auto add_all = [&](const Visibility& v, bool screened) {
     add_map(maps, tip_map(zone, v.tip_count, v.tip_undecided), "tip-count", "tip", screened);
     if (known_hubs(zone) > 0) add_map(maps, hub_map(zone, v.hub_count, v.hub_undecided), "hub-count", "hub", screened);

@@ -67,7 +67,7 @@ void add_files(const Zone& zone, const Visibility& seen, const std::string& suff
     files.push_back(
         {{"additional" + suffix + ".gpkg", "where the proposal, other turbines or both have tips seen: polygons, m²"},
          [&](const std::string& path) { write_addition_polygons(path, zone, seen, options); }});
-  if (farms_of(zone).size() < 2) return;
+  if (farms_of(zone.request.turbines).size() < 2) return;
   files.push_back(
       {{"farms" + suffix + ".gpkg", "where a combination of farms has tips seen: polygons, m²"},
        [&](const std::string& path) { write_farm_polygons(path, zone, farm_combinations(zone, seen), options); }});

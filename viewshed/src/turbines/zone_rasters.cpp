@@ -234,7 +234,7 @@ void write_farm_raster(const std::vector<std::uint32_t>& farms, const std::vecto
 }
 
 void write_farm_rasters(const Zone& zone, const std::vector<View>& views, RasterFolder& folder) {
-  const std::size_t count = farms_of(zone).size();
+  const std::size_t count = farms_of(zone.request.turbines).size();
   if (count < 2) return;
   const std::vector<std::uint32_t> bare = farm_combinations(zone, zone.bare);
   std::vector<std::uint32_t> screened;

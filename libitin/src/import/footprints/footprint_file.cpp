@@ -142,6 +142,17 @@ FootprintFile read_file(const std::string& path, SourceKind kind, const Footprin
   return file;
 }
 
+/// Returns a file's name without folders, and the beginning of its checksum.
+std::string name_and_checksum(const std::string& path, Progress& progress) {
+  constexpr std::size_t kDigits = 12;
+  const std::string name = std::filesystem::path(path).filename().string(), digest = file_sha256(path, progress);
+  return digest.empty() ? name : fmt::format("{} (SHA-256 {})", name, digest.substr(0, kDigits));
+}
+
+bool has_height(const FootprintFeature& feature) {
+  return feature.height || feature.eaves;
+}
+
 std::string why_empty(const std::vector<std::string>& warnings) {
   const auto passed_over = std::find_if(warnings.begin(), warnings.end(), [](const std::string& line) {
     return line.find("passed over") != std::string::npos;
@@ -181,10 +192,13 @@ std::vector<FootprintFile> read_footprint_files(const ImportOptions& options, co
   VerticalDatums datums(store.metadata());
   const FootprintImport import{options, store.metadata(), options.allow_mixed_vertical ? nullptr : &datums};
   std::optional<SurfaceHeights> surface;
-  if (!options.height_from.empty())
+  std::string raster_of_heights;
+  if (!options.height_from.empty()) {
     surface.emplace(SurfaceHeightsQuery{options.height_from, options.height_percentile.value_or(50), import.datums,
                                         options.memory_bytes},
                     store, progress);
+    raster_of_heights = name_and_checksum(options.height_from, progress);
+  }
   std::vector<FootprintFile> files;
   for (std::size_t i = 0; i < kinds.size(); ++i) {
     const std::string& path = options.sources[i];
@@ -194,9 +208,14 @@ std::vector<FootprintFile> read_footprint_files(const ImportOptions& options, co
       feature.base_rule = options.base.value_or(BaseRule::minimum);
       feature.flat_foundation = options.foundation == Foundation::flat;
     }
-    if (surface) surface->complete(file.footprints, progress);
+    if (surface) {
+      const std::vector<FootprintFeature>& features = file.footprints.features;
+      file.info.states_heights = std::any_of(features.begin(), features.end(), has_height);
+      file.info.heights_from = raster_of_heights;
+      surface->complete(file.footprints, progress);
+    }
     for (FootprintFeature& feature : file.footprints.features)
-      if (surface && !feature.height && !feature.eaves) feature.height = options.height;
+      if (surface && !has_height(feature)) feature.height = options.height;
     file.info.path = path;
     file.info.kind = name_of(*options.kind);
     file.info.theme = options.theme;

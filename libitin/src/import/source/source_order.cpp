@@ -27,7 +27,8 @@ std::vector<std::uint16_t> numbers_of(std::span<const SourceInfo> sources, const
   const std::vector<std::uint32_t> ranks = ranks_of(sources);
   const auto key = [&](std::uint16_t s) {
     const SourceInfo& i = sources[s];
-    return std::tuple(!i.theme.empty(), ranks[s], std::tie(i.makes_room, i.source_crs, i.note, i.wall_offset));
+    return std::tuple(!i.theme.empty(), ranks[s],
+                      std::tie(i.makes_room, i.source_crs, i.note, i.wall_offset, i.heights_from, i.states_heights));
   };
   std::vector<std::uint16_t> order;
   for (std::uint16_t s = 0; s < sources.size(); ++s)

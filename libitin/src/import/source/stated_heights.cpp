@@ -25,16 +25,19 @@ StatedHeights::StatedHeights(const StoreMetadata& metadata) : metadata_(metadata
 std::optional<HeightAxis> StatedHeights::of(const SourceInfo& source) const {
   const ThemeInfo* theme = theme_of(source);
   const bool lies_on_ground = theme != nullptr && !is_terrain(theme->kind) && !theme->is_raised();
-  if (source.source_crs.empty() || lies_on_ground) return std::nullopt;
+  if (source.source_crs.empty() || lies_on_ground || !source.states_heights) return std::nullopt;
   return axes_.at(source.source_crs);
 }
 
 std::string StatedHeights::text_of(const SourceInfo& source) const {
+  const std::string& raster = source.heights_from;
+  if (!source.states_heights) return "heights of features from " + raster;
   const std::optional<HeightAxis> axis = of(source);
   if (!axis) return {};
   const ThemeInfo* theme = theme_of(source);
   const bool may_be_relative = theme != nullptr && theme->is_raised() && theme->kind != ThemeKind::Surface;
-  return may_be_relative ? "heights of features, unit: " + unit_text(*axis) : described(*axis);
+  const std::string stated = may_be_relative ? "heights of features, unit: " + unit_text(*axis) : described(*axis);
+  return raster.empty() ? stated : stated + ", or from " + raster + " where they state none";
 }
 
 const ThemeInfo* StatedHeights::theme_of(const SourceInfo& source) const {

@@ -111,7 +111,7 @@ Document zone_study_document(const ZoneStudy& study, const std::string& decides)
   document["refraction"] = earth_document(zone.request.earth);
   document["grid"] = grid_document(zone.grid);
   document["turbines"] = turbines_document(study);
-  document["farms"] = farms_of(zone);
+  document["farms"] = farms_of(zone.request.turbines);
   document["study_area"] = {{"km2", study.missing.study_m2() / 1e6},
                             {"without_data_km2", study.missing.missing_m2() / 1e6},
                             {"share_without_data", study.missing.share()}};

@@ -36,15 +36,6 @@ VectorLayer layer_of_lines(const char* name, const profile::SheetLines& lines, d
       [](const profile::SheetLine& line) { return at_zero(line.points); }, line_style("what", all, width_mm));
 }
 
-std::string style_of_farms(const Zone& zone) {
-  const std::vector<std::string> farms = farms_of(zone);
-  const std::vector<Rgba> colours = farm_colours(zone);
-  std::vector<FeatureClass> classes;
-  for (std::size_t f = 0; f < farms.size(); ++f)
-    classes.push_back({farms[f].c_str(), farms[f].empty() ? "Turbine" : farms[f].c_str(), colours[f]});
-  return point_style("farm", classes);
-}
-
 /// The turbines in colours by their status where there is a proposal, else by their farms.
 VectorLayer layer_of_turbines(const ZoneStudy& study) {
   const Zone& zone = study.zone;
@@ -52,7 +43,7 @@ VectorLayer layer_of_turbines(const ZoneStudy& study) {
     return std::vector<Point3>{{row.turbine->position.x, row.turbine->position.y, zone.ground_m[row.index]}};
   };
   return layer_of("turbines", VectorLayer::Shape::kPoints, turbine_row_columns(study), rows_of_turbines(zone), place,
-                  has_proposal(zone.request) ? point_style("planning_status", kTurbineStatuses) : style_of_farms(zone));
+                  turbine_style(zone.request.turbines));
 }
 
 VectorLayer layer_of_viewpoints(const ZoneStudy& study) {

@@ -46,7 +46,7 @@ std::string turbines_in_words(const ZoneStudy& study) {
   std::string text =
       fmt::format("The assessment covers {}, with blade tips {} above the ground.",
                   counted(turbines.size(), "wind turbine"), range(least->tip_height, most->tip_height, "m"));
-  const std::vector<std::string> farms = farms_of(zone);
+  const std::vector<std::string> farms = farms_of(zone.request.turbines);
   if (farms.size() > 1) text += fmt::format(" The wind farms are {}.", fmt::join(farms, ", "));
   const std::size_t unknown = turbines.size() - known_hubs(zone);
   if (unknown == turbines.size())
@@ -204,7 +204,7 @@ std::string combinations_in_words(const ZoneStudy& study) {
   return fmt::format(
       "Every cell is classed by the combination of wind farms of which at least one blade tip is visible from it, and "
       "the area of each combination is given: where one of the {} is seen alone, where two are, and so on.{}",
-      counted(farms_of(study.zone).size(), "wind farm"),
+      counted(farms_of(study.zone.request.turbines).size(), "wind farm"),
       study.zone.screened ? " This is done for bare ground, and again with the screening effect of features." : "");
 }
 
@@ -296,7 +296,7 @@ std::string methods_text(const ZoneStudy& study, const ZoneStudyFileOptions& opt
       "turbine above this point. Rotors are taken to face the observer. Haze, light and the acuity of the eye are not "
       "taken into account.");
   paragraph("Screening", screening_in_words(study));
-  if (farms_of(zone).size() > 1) paragraph("Combinations of wind farms", combinations_in_words(study));
+  if (farms_of(zone.request.turbines).size() > 1) paragraph("Combinations of wind farms", combinations_in_words(study));
   if (!study.viewpoints.empty()) paragraph("Viewpoints", viewpoints_in_words(study));
   if (!study.routes.empty()) paragraph("Routes", routes_in_words(study));
   if (zone.seasons) paragraph("Foliage", foliage_in_words(*request.foliage));

@@ -27,37 +27,6 @@ using profile::SheetKey;
 
 constexpr Rgba kViewpoint{20, 60, 140, 255}, kRadar{90, 40, 150, 255};
 
-/// Returns what a map of hubs adds to the key of turbines of which some have no hub that is known.
-std::string unknown_hubs(std::size_t unknown, std::size_t all) {
-  if (unknown == 0) return "";
-  return unknown == all ? ", of unknown hub height" : fmt::format(", {} of unknown hub height", unknown);
-}
-
-MapObjects turbine_objects(const Zone& zone, bool of_hubs) {
-  std::vector<std::string> farms = farms_of(zone);
-  const std::vector<Rgba> colours = farm_colours(zone);
-  const bool told_apart = farms.size() > 1 && colours[0] != colours[1];
-  if (farms.size() > 1 && !told_apart) farms = {""};
-  MapObjects objects;
-  for (std::size_t f = 0; f < farms.size(); ++f) {
-    profile::SheetMarks marks{profile::SheetSymbol::kTurbine, colours[f], {}};
-    std::size_t unknown = 0;
-    for (const Turbine& t : zone.request.turbines) {
-      if (told_apart && t.farm != farms[f]) continue;
-      marks.marks.push_back({t.position, fmt::format("{}", t.number)});
-      if (!t.hub_height) ++unknown;
-    }
-    const std::string turbines = counted(marks.marks.size(), "wind turbine") + ", numbered" +
-                                 (of_hubs ? unknown_hubs(unknown, marks.marks.size()) : "");
-    objects.keys.push_back({SheetKey::Sample::kMark,
-                            {marks.colour},
-                            farms[f].empty() ? turbines : fmt::format("{}: {}", farms[f], turbines),
-                            marks.symbol});
-    objects.layers.emplace_back(std::move(marks));
-  }
-  return objects;
-}
-
 MapObjects viewpoint_objects(const std::vector<StudiedViewpoint>& viewpoints) {
   profile::SheetMarks marks{profile::SheetSymbol::kViewpoint, kViewpoint, {}};
   for (const auto& [v, bare, screened, remark] : viewpoints)
@@ -90,7 +59,7 @@ std::vector<MapObjects> objects_of(const ZoneStudy& study, const StudyLines& lin
     objects.push_back({{lines.routes}, {{SheetKey::Sample::kLine, {lines.routes.colour}, "Route"}}});
   if (!lines.radio_links.lines.empty())
     objects.push_back({{lines.radio_links}, {{SheetKey::Sample::kDashes, {lines.radio_links.colour}, "Radio link"}}});
-  objects.push_back(turbine_objects(study.zone, of_hubs));
+  objects.push_back(turbine_objects(study.zone.request.turbines, of_hubs));
   if (study.zone.request.radar) objects.push_back(radar_objects(*study.zone.request.radar));
   if (!study.viewpoints.empty()) objects.push_back(viewpoint_objects(study.viewpoints));
   return objects;

@@ -1,5 +1,7 @@
 #include "workflows/zone/turbine_rows.hpp"
 
+#include <viewshed/zone_files.hpp>
+
 #include "workflows/zone/study_radio.hpp"
 
 namespace itin::viewshed {
@@ -12,11 +14,6 @@ std::vector<TurbineRow> rows_of_file(const ZoneStudy& study) {
   for (const BadRow& bad : study.request.turbines.bad) rows[bad.number - 1] = {bad.number, 0, nullptr, &bad};
   std::erase_if(rows, [](const TurbineRow& row) { return row.number == 0; });
   return rows;
-}
-
-/// Returns the name of the status; empty where it is not known.
-const char* planning_word(const Turbine& turbine) {
-  return turbine.status ? kTurbineStatuses[static_cast<std::size_t>(*turbine.status)].name : "";
 }
 
 }  // namespace
@@ -46,7 +43,7 @@ std::vector<TableColumn<TurbineRow>> turbine_row_columns(const ZoneStudy& study)
       kInCsv);
   add("name", &Turbine::name, kInCsv | kInLayer);
   add("farm", &Turbine::farm, kInCsv | kInLayer);
-  add("planning_status", planning_word, kInLayer);
+  add("planning_status", planning_status, kInLayer);
   add(
       "x", [](const Turbine& t) { return t.position.x; }, kInCsv, "{:.3f}");
   add(
@@ -64,7 +61,7 @@ std::vector<TableColumn<TurbineRow>> turbine_row_columns(const ZoneStudy& study)
   columns.emplace_back(
       "message", [](const TurbineRow& row) { return row.bad == nullptr ? "" : row.bad->message; }, kInCsv);
   add_radio_columns(study, columns);
-  if (has_proposal(study.zone.request)) add("planning_status", planning_word, kInCsv);
+  if (has_proposal(study.zone.request)) add("planning_status", planning_status, kInCsv);
   return columns;
 }
 

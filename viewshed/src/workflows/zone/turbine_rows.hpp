@@ -1,12 +1,10 @@
 // The table of the turbines.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <string>
 #include <vector>
 
-#include <itin/feature_style.hpp>
 #include <itin/table_columns.hpp>
 #include <viewshed/zone_study.hpp>
 
@@ -25,12 +23,6 @@ template <class Of>
 auto of_turbine(Of of) {
   return [of](const TurbineRow& row) { return if_any(row.turbine, [&](const Turbine&) { return of(row); }); };
 }
-
-/// The classes of TurbineStatus, in its order.
-inline constexpr std::array<FeatureClass, 4> kTurbineStatuses{{{"proposed", "Proposed", {213, 94, 0}},
-                                                               {"in planning", "In planning", {230, 159, 0}},
-                                                               {"consented", "Consented", {204, 121, 167}},
-                                                               {"existing", "Existing", {60, 60, 60}}}};
 
 /// Returns the rows of the turbines of the zone, in its order.
 std::vector<TurbineRow> rows_of_turbines(const Zone& zone);

@@ -125,14 +125,11 @@ Facts facts_of(const Viewpoint& v, const ViewedSurface& view, const Zone& zone, 
   return facts;
 }
 
-/// Returns the colour of each turbine's farm.
+/// Returns the colour of each turbine's group.
 std::vector<Rgba> turbine_colours(const Zone& zone) {
-  const std::vector<std::string> farms = farms_of(zone);
-  const std::vector<Rgba> of_farms = farm_colours(zone);
-  std::vector<Rgba> colours;
-  for (const Turbine& t : zone.request.turbines)
-    colours.push_back(
-        of_farms[static_cast<std::size_t>(std::find(farms.begin(), farms.end(), t.farm) - farms.begin())]);
+  std::vector<Rgba> colours(zone.request.turbines.size());
+  for (const TurbineGroup& group : turbine_groups(zone.request.turbines))
+    for (const std::size_t turbine : group.turbines) colours[turbine] = group.colour;
   return colours;
 }
 
@@ -192,7 +189,7 @@ profile::SheetTable farm_table(const Zone& zone, const std::vector<TurbineSight>
                           s.arc ? fmt::format("{:.1f}°", s.arc->width) : "none",
                           s.tips > 0 ? fmt::format("{:.2f}°", s.vertical_deg) : "none"});
   };
-  const std::vector<std::string> farms = farms_of(zone);
+  const std::vector<std::string> farms = farms_of(zone.request.turbines);
   for (const std::string& farm : farms) {
     std::vector<std::size_t> own;
     for (std::size_t k = 0; k < sights.size(); ++k)

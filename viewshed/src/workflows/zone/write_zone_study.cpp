@@ -29,7 +29,7 @@ namespace itin::viewshed {
 namespace {
 
 void require_farm_known(const Zone& zone, const std::string& farm) {
-  const std::vector<std::string> farms = farms_of(zone);
+  const std::vector<std::string> farms = farms_of(zone.request.turbines);
   if (!farm.empty() && std::find(farms.begin(), farms.end(), farm) == farms.end())
     throw InputError(fmt::format("`alone`: unknown wind farm '{}'; known: {}", farm, fmt::join(farms, ", ")), "alone");
 }
@@ -101,7 +101,7 @@ class StudyWriter {
         area_table(zone));
     add("area-totals.csv", "km² by band of turbines visible and by combination of farms, over the whole study area",
         area_totals(zone));
-    if (farms_of(zone).size() > 1)
+    if (farms_of(zone.request.turbines).size() > 1)
       add("farms.csv", "what the values of farms.tif stand for: combinations of farms, and km² of each",
           combination_table(zone));
     add("turbines.csv", "the turbines row by row: heights and ground as used, and why a row is not used",

@@ -1,6 +1,7 @@
 #include "workflows/dwellings/output/dwelling_layers.hpp"
 
 #include <itin/table_columns.hpp>
+#include <viewshed/zone_files.hpp>
 
 #include "workflows/dwellings/output/dwelling_tables.hpp"
 
@@ -13,14 +14,16 @@ VectorLayer turbines_of_survey(const DwellingsSurvey& survey) {
       {"turbine", [](const Turbine& t) { return t.number; }},
       {"name", [](const Turbine& t) { return t.name; }},
       {"farm", [](const Turbine& t) { return t.farm; }},
+      {"planning_status", planning_status},
       {"hub_height_m", [](const Turbine& t) { return t.hub_height; }},
       {"rotor_diameter_m", [](const Turbine& t) { return t.rotor_diameter; }},
       {"tip_height_m", [](const Turbine& t) { return t.tip_height; }}};
   const std::vector<Turbine>& turbines = survey.request.turbines.turbines;
-  return layer_of("turbines", VectorLayer::Shape::kPoints, columns, turbines, [&](const Turbine& t) {
+  const auto place = [&](const Turbine& t) {
     const auto number = static_cast<std::size_t>(&t - turbines.data());
     return std::vector<Point3>{{t.position.x, t.position.y, survey.ground_m[number]}};
-  });
+  };
+  return layer_of("turbines", VectorLayer::Shape::kPoints, columns, turbines, place, turbine_style(turbines));
 }
 
 }  // namespace

@@ -42,17 +42,11 @@ MapObjects dwellings_of(const DwellingsSurvey& survey, FlickerClass flicker) {
 }
 
 std::vector<MapObjects> dwelling_objects(const DwellingsSurvey& survey) {
-  constexpr Rgba kTurbineColour{20, 40, 110, 255};
   std::vector<MapObjects> objects;
   for (const FlickerClass flicker : {FlickerClass::kNone, FlickerClass::kWithin, FlickerClass::kBeyond})
     objects.push_back(dwellings_of(survey, flicker));
   std::erase_if(objects, [](const MapObjects& o) { return o.layers.empty(); });
-  profile::SheetMarks turbines{profile::SheetSymbol::kTurbine, kTurbineColour, {}};
-  for (const Turbine& t : survey.request.turbines.turbines)
-    turbines.marks.push_back({t.position, fmt::format("{}", t.number)});
-  const std::string text = counted(turbines.marks.size(), "wind turbine") + ", numbered";
-  objects.push_back(
-      {{std::move(turbines)}, {{MapSample::kMark, {kTurbineColour}, text, profile::SheetSymbol::kTurbine}}});
+  objects.push_back(turbine_objects(survey.request.turbines.turbines));
   return objects;
 }
 

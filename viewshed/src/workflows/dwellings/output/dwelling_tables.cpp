@@ -289,11 +289,13 @@ VectorLayer layer_of_dwellings(const DwellingsSurvey& survey) {
 }
 
 VectorLayer layer_of_facades(const DwellingsSurvey& survey) {
-  return layer_of("facades", VectorLayer::Shape::kPoints, facade_columns(survey), facade_rows(survey),
-                  [](const FacadeRow& row) {
-                    const Point2 at = row.position();
-                    return std::vector<Point3>{{at.x, at.y, row.facade.ground_m}};
-                  });
+  constexpr FeatureClass kEye{"eye", "Eye before a facade, or in the open", {105, 105, 105}};
+  const auto place = [](const FacadeRow& row) {
+    const Point2 at = row.position();
+    return std::vector<Point3>{{at.x, at.y, row.facade.ground_m}};
+  };
+  return layer_of("facades", VectorLayer::Shape::kPoints, facade_columns(survey), facade_rows(survey), place,
+                  point_style(kEye));
 }
 
 }  // namespace itin::viewshed

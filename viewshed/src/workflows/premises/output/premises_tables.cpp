@@ -4,6 +4,7 @@
 
 #include <itin/feature_style.hpp>
 #include <itin/table_columns.hpp>
+#include <viewshed/result_sheet.hpp>
 
 #include "workflows/premises/output/wall_service.hpp"
 
@@ -295,7 +296,8 @@ VectorLayer layer_of_masts(const PremisesSurvey& survey) {
   const auto place = [](const MastRow& row) {
     return std::vector<Point3>{{row.mast.position.x, row.mast.position.y, row.mast.ground}};
   };
-  return layer_of("masts", VectorLayer::Shape::kPoints, mast_columns(), mast_rows(survey), place);
+  return layer_of("masts", VectorLayer::Shape::kPoints, mast_columns(), mast_rows(survey), place,
+                  point_style({"mast", "Mast", kMastColour}));
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include <itin/table_columns.hpp>
+#include <profile/line_classes.hpp>
 #include <viewshed/site_links.hpp>
 
 namespace itin::viewshed {
@@ -145,7 +146,8 @@ VectorLayer links_layer(const SitePlan& r) {
     return std::vector<Point3>{{a.position.x, a.position.y, a.elevation()},
                                {b.position.x, b.position.y, b.elevation()}};
   };
-  return layer_of("links", VectorLayer::Shape::kLines, link_columns(r), link_rows(r), line);
+  return layer_of("links", VectorLayer::Shape::kLines, link_columns(r), link_rows(r), line,
+                  line_style("verdict", profile::kVerdictClasses, 0.6));
 }
 
 }  // namespace itin::viewshed

@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <itin/building_outlines.hpp>
 #include <itin/contour_lines.hpp>
 #include <itin/parallel.hpp>
 #include <viewshed/site_links.hpp>
@@ -23,19 +22,7 @@ using profile::SheetSymbol;
 using Sample = SheetKey::Sample;
 
 constexpr Rgba kSearchArea{20, 90, 160, 255}, kForbidden{190, 30, 30, 255}, kSetback{200, 110, 0, 255};
-constexpr Rgba kBuilding{70, 60, 55, 255}, kBackhaul{160, 55, 0, 255}, kExistingSite{110, 50, 130, 255},
-    kHubMark{25, 25, 25, 255};
-
-/// Returns building outlines, exact to a tenth of a pixel in a picture 1000 pixels long. Buildings smaller than two
-/// pixels, which would be blots, are left out.
-MapObjects building_objects(const Store& store, const SitePlan& r) {
-  const Box frame = shown_area(r);
-  const double pixel = std::max(frame.width(), frame.height()) / 1000;
-  profile::SheetLines lines{{}, kBuilding, 0.2, false};
-  for (auto& ring : building_outlines(store, r.request.themes, frame, {0.1 * pixel, 2 * pixel}))
-    lines.lines.push_back({std::move(ring), ""});
-  return {{std::move(lines)}, {{Sample::kLine, {kBuilding}, "Building outline"}}};
-}
+constexpr Rgba kBackhaul{160, 55, 0, 255}, kExistingSite{110, 50, 130, 255}, kHubMark{25, 25, 25, 255};
 
 MapObjects dashed_lines(std::vector<std::vector<Point2>> outlines, const Rgba& colour, std::string what) {
   profile::SheetLines lines{{}, colour, 0.4, true};
@@ -97,13 +84,26 @@ MapObjects link_objects(const SitePlan& r) {
   return {{std::move(lines)}, {{Sample::kLine, {kBackhaul}, what}}};
 }
 
+/// Returns the name that an end's mark has on maps. A hub has the names of the sites at its place, too, whose own marks
+/// it covers.
+std::string label_of(const SiteNetwork& network, std::size_t end) {
+  const auto is_hub = [&](std::size_t i) { return network.ends[i].kind == LinkEnd::Kind::kHub; };
+  std::string sites;
+  for (std::size_t i = 0; i < network.ends.size(); ++i) {
+    if (is_hub(i) == is_hub(end) || network.ends[i].place.position != network.ends[end].place.position) continue;
+    if (!is_hub(end)) return "";
+    sites += network.ends[i].place.name + ", ";
+  }
+  return sites + network.ends[end].place.name;
+}
+
 /// Returns marks for the ends of a network that `is_one` accepts.
 template <class IsOne>
 MapObjects marks_of_sites(const SiteNetwork& network, SheetSymbol symbol, const Rgba& colour, const std::string& what,
                           const IsOne& is_one) {
   profile::SheetMarks marks{symbol, colour, {}};
   for (std::size_t i = 0; i < network.ends.size(); ++i)
-    if (is_one(i)) marks.marks.push_back({network.ends[i].place.position, network.ends[i].place.name});
+    if (is_one(i)) marks.marks.push_back({network.ends[i].place.position, label_of(network, i)});
   return {{std::move(marks)}, {{Sample::kMark, {colour}, what, symbol}}};
 }
 
@@ -117,6 +117,7 @@ Box searched_box(const SitePlan& r) {
 }
 
 bool has_no_object(const MapObjects& objects) {
+  if (objects.layers.empty()) return true;
   const profile::SheetLayer& layer = objects.layers.front();
   if (const auto* lines = std::get_if<profile::SheetLines>(&layer)) return lines->lines.empty();
   return std::get<profile::SheetMarks>(layer).marks.empty();
@@ -132,7 +133,10 @@ Box shown_area(const SitePlan& r) {
     area.extend(Point2{p.x - about, p.y - about});
     area.extend(Point2{p.x + about, p.y + about});
   }
-  if (r.request.search_area) area.extend(searched_box(r));
+  if (r.request.search_area) {
+    const Box searched = searched_box(r);
+    area.extend(Box{searched.xmin - about, searched.ymin - about, searched.xmax + about, searched.ymax + about});
+  }
   return area;
 }
 
@@ -143,7 +147,8 @@ std::vector<MapObjects> site_map_objects(const Store& store, const SitePlan& r) 
   const std::vector<std::size_t> through = routes_through_ends(network, r.routes);
   const auto is = [&](std::size_t i, LinkEnd::Kind kind) { return network.ends[i].kind == kind; };
   std::vector<MapObjects> objects{
-      building_objects(store, r), dashed_lines(outlines_of(r.request.search_area), kSearchArea, "Search area"),
+      building_objects(store, r.request.themes, shown_area(r)),
+      dashed_lines(outlines_of(r.request.search_area), kSearchArea, "Search area"),
       dashed_lines(outlines_of(r.request.forbidden), kForbidden, "No " + wording.one + " here"), setback_objects(r),
       link_objects(r)};
   for (MapObjects& points : objects_of_points(r)) objects.push_back(std::move(points));

@@ -3,7 +3,9 @@
 #include <vector>
 
 #include <itin/document.hpp>
+#include <itin/feature_style.hpp>
 #include <itin/table_columns.hpp>
+#include <viewshed/result_sheet.hpp>
 
 namespace itin::viewshed {
 
@@ -100,11 +102,12 @@ PlaceColumns turbine_columns(const TurbinePlacement& placement) {
 }
 
 /// A layer of points on the ground.
-VectorLayer layer_of_places(const char* name, const PlaceColumns& columns, const std::vector<PlaceRow>& rows) {
+VectorLayer layer_of_places(const char* name, const PlaceColumns& columns, const std::vector<PlaceRow>& rows,
+                            const FeatureClass& all) {
   const auto point = [](const PlaceRow& row) {
     return std::vector<Point3>{{place_x(row), place_y(row), row.place.ground}};
   };
-  return layer_of(name, VectorLayer::Shape::kPoints, columns, rows, point);
+  return layer_of(name, VectorLayer::Shape::kPoints, columns, rows, point, point_style(all));
 }
 
 }  // namespace
@@ -134,15 +137,17 @@ Document chosen_document(const SitePlan& r) {
 }
 
 VectorLayer sites_layer(const SitePlan& r) {
-  return layer_of_places("sites", chosen_columns(r), chosen_rows(r));
+  return layer_of_places("sites", chosen_columns(r), chosen_rows(r), {"site", "Chosen site", kMastColour});
 }
 
 VectorLayer candidates_layer(const SitePlan& r) {
-  return layer_of_places("candidates", candidate_columns(r), option_rows(r));
+  return layer_of_places("candidates", candidate_columns(r), option_rows(r),
+                         {"candidate", "Candidate", {170, 170, 170}});
 }
 
 VectorLayer turbines_layer(const SitePlan& r) {
-  return layer_of_places("turbines", turbine_columns(*r.request.turbines), chosen_rows(r));
+  return layer_of_places("turbines", turbine_columns(*r.request.turbines), chosen_rows(r),
+                         {"turbine", "Chosen turbine", kMastColour});
 }
 
 }  // namespace itin::viewshed
