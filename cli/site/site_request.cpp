@@ -162,6 +162,7 @@ class RequestFiles {
 
   void read_existing() {
     SiteQuery query = query_of(options_.existing, options_.existing_height_field);
+    take_names(query, LayerFields(query));
     auto antennas = antennas_of(query);
     request_.existing = places_of(query, {}, [&](const Site& site, viewshed::SitePlace& place) {
       place.name = site.name;

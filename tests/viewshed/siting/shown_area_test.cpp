@@ -1,7 +1,7 @@
 // The area that maps of sites show.
-#include "workflows/siting/output/site_map_objects.hpp"
-
 #include <gtest/gtest.h>
+
+#include "workflows/siting/output/site_map_objects.hpp"
 
 namespace itin::viewshed {
 namespace {
@@ -15,7 +15,7 @@ TEST(ShownArea, HasRoomAboutTheSearchArea) {
     plan.request.search_area = Window::box(searched);
     plan.request.spacing = 100;
     for (const Point2 corner : {Point2{searched.xmin, searched.ymin}, Point2{searched.xmax, searched.ymax}})
-      plan.inputs.candidates.push_back({.place = {.position = corner}});
+      plan.inputs.candidates.push_back({.place = {.position = corner}, .proposed_as = {}});
     const Box shown = shown_area(plan);
     for (const double room : {searched.xmin - shown.xmin, searched.ymin - shown.ymin, shown.xmax - searched.xmax,
                               shown.ymax - searched.ymax})

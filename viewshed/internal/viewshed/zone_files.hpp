@@ -42,7 +42,7 @@ struct LinkStudy {
 /// The classes of TurbineStatus, in its order.
 inline constexpr std::array<FeatureClass, 4> kTurbineStatuses{{{"proposed", "Proposed", {213, 94, 0}},
                                                                {"in planning", "In planning", {230, 159, 0}},
-                                                               {"consented", "Consented", {204, 121, 167}},
+                                                               {"consented", "Consented", {0, 90, 160}},
                                                                {"existing", "Existing", {60, 60, 60}}}};
 
 /// Returns the farms of turbines in the order of their first turbines.

@@ -21,7 +21,8 @@ using FarmSet = std::vector<std::uint32_t>;
 /// Tells which farms are seen from a cell.
 class FarmSets {
  public:
-  explicit FarmSets(const Zone& zone) : zone_(zone), names_(farms_of(zone.request.turbines)), words_(bit_grids(names_.size())) {
+  explicit FarmSets(const Zone& zone)
+      : zone_(zone), names_(farms_of(zone.request.turbines)), words_(bit_grids(names_.size())) {
     // Each farm has the words of its turbines' bits.
     masks_.assign(names_.size(), std::vector<std::uint32_t>(zone.words));
     for (const Turbine& t : zone.request.turbines) {

@@ -32,7 +32,8 @@ std::vector<ValueBand> count_bands(std::size_t most, std::vector<std::size_t> li
 std::vector<ValueBand> limit_bands(const std::vector<double>& limits, const std::string& unit);
 /// Limits of bands of diffraction losses, from slight to beyond use; dB.
 inline constexpr std::array<double, 4> kLossLimitsDb{6, 15, 30, 50};
-/// Returns the bands of diffraction losses, the least the darkest. A loss of 0 has a colour, too: only cells without a loss have none.
+/// Returns the bands of diffraction losses, the least the darkest. A loss of 0 has a colour, too: only cells without a
+/// loss have none.
 std::vector<ValueBand> loss_bands();
 /// Limits of bands of levels at a receiver whose sensitivity is not known; dBm.
 inline constexpr std::array<double, 6> kLevelLimitsDbm{-100, -90, -80, -70, -60, -50};
