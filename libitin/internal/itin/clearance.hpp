@@ -106,7 +106,7 @@ class LineOverGround {
 
  private:
   double start_z_, end_z_;
-  double rise_;  ///< of the line, per unit of distance
+  double rise_;  ///< what the line gains per unit of distance
   Bulge bulge_;
 };
 
