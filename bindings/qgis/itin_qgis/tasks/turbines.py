@@ -38,6 +38,14 @@ TURBINE_FIELDS = (
     ),
     Field("TIP_HEIGHT_FIELD", "Field of tip heights", "--tip-height-field", of="TURBINES", advanced=True),
     Field("FARM_FIELD", "Field of farms", "--farm-field", of="TURBINES", advanced=True),
+    Field(
+        "STATUS_FIELD",
+        "Field that says proposed, consented or existing",
+        "--status-field",
+        of="TURBINES",
+        advanced=True,
+    ),
+    Text("PROPOSAL", "Farm that is the proposal, where others are in planning", "--proposal", advanced=True),
 )
 
 
@@ -100,14 +108,6 @@ class Ztv(Task):
         Point("RADAR", "Radar", "--radar", height="RADAR_HEIGHT", advanced=True),
         Number("RADAR_HEIGHT", "Height of the radar above the ground", unit="m", advanced=True),
         *TURBINE_FIELDS,
-        Field(
-            "STATUS_FIELD",
-            "Field that says proposed, consented or existing",
-            "--status-field",
-            of="TURBINES",
-            advanced=True,
-        ),
-        Text("PROPOSAL", "Farm that is the proposal, where others are in planning", "--proposal", advanced=True),
         Text("FARM", "Farm of those that give none", "--farm", advanced=True),
         Text("BANDS", "Numbers of turbines in bands of maps, as 1,5,10", "--bands", advanced=True),
         File("RADIUS_PRESET", "Radii by tip height", "--radius-preset", filter="JSON (*.json)", advanced=True),
