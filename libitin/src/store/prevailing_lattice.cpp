@@ -30,8 +30,8 @@ Vote vote_of(const PointIndex& index, const Leaf& leaf, const GridBox& box) {
 
 }  // namespace
 
-std::optional<PostLattice> prevailing_lattice(const PointIndex& index, std::span<const Leaf> leaves,
-                                              const GridBox& box, std::size_t voters) {
+std::optional<PostLattice> prevailing_lattice(const PointIndex& index, std::span<const Leaf> leaves, const GridBox& box,
+                                              std::size_t voters) {
   std::vector<Leaf> fullest(std::min(voters, leaves.size()));
   std::partial_sort_copy(leaves.begin(), leaves.end(), fullest.begin(), fullest.end(),
                          [](const Leaf& a, const Leaf& b) { return a.points > b.points; });

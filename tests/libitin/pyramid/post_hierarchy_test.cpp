@@ -235,7 +235,8 @@ TEST(PostHierarchies, GiveTheLevelsOfTheirDefinitionWhateverTheTiles) {
   EXPECT_GT(fine, 0) << "none of these grounds has fine levels";
 }
 
-/// At this raster's end the fullest leaves of a tile have one column of posts, and do not know the step between columns.
+/// At this raster's end the fullest leaves of a tile have one column of posts, and do not know the step between
+/// columns.
 TEST(PostHierarchies, LeaveNoTileOut) {
   NoProgress progress;
   PostGround ground = random_ground(341);
