@@ -53,6 +53,7 @@ struct ClearancePiece {
   /// Returns where the ground rises above the line; an empty stretch where it does so nowhere by more than `grazing`.
   /// There is one such stretch at most, for the clearance is convex.
   std::pair<double, double> above_line(double grazing) const {
+    // A convex clearance is nowhere greater than at one of both ends.
     if (at(from) < -grazing && at(to) < -grazing) return {from, to};
     const double lowest = least_within(from, to);
     if (at(lowest) >= -grazing) return {lowest, lowest};

@@ -17,6 +17,9 @@ namespace itin {
 /// store's bounds meet the box. Throws CorruptStore.
 std::vector<SourceInfo> sources_in(const Store& store, const Box& box, const ThemeChoice& themes);
 
+/// Returns the name of a file without its folders, and the beginning of its checksum where that is known.
+std::string name_and_checksum(const std::string& path, const std::string& sha256);
+
 /// Returns a line of text for each sort of sources: their names, posting, vertical datum and note.
 std::vector<std::string> described(const std::vector<SourceInfo>& sources, const StoreMetadata& metadata);
 

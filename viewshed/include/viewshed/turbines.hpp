@@ -87,7 +87,10 @@ struct ZoneRequest {
 
 /// Tells whether some turbines are proposed, and others are not. Then cells beyond the radius of every proposed one are
 /// outside, whatever is seen from them.
-bool has_proposal(const ZoneRequest& request);
+bool has_proposal(const std::vector<Turbine>& turbines);
+inline bool has_proposal(const ZoneRequest& request) {
+  return has_proposal(request.turbines);
+}
 /// Returns the turbines that the study area lies about: the proposed ones where there is a proposal, else all.
 std::vector<Turbine> turbines_of_study_area(const ZoneRequest& request);
 

@@ -54,7 +54,7 @@ std::vector<Rgba> farm_colours(const std::vector<Turbine>& turbines);
 /// Returns the name of a turbine's status; empty where it is not known.
 const char* planning_status(const Turbine& turbine);
 /// Returns the style of a layer of turbines that has the fields planning_status and farm: in colours by their status
-/// where some are proposed and others are not, else by their farms.
+/// where there is a proposal, else by their farms.
 std::string turbine_style(const std::vector<Turbine>& turbines);
 
 /// Turbines that have one colour on maps and wirelines.

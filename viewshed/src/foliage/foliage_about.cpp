@@ -47,14 +47,13 @@ struct FoliageAbout::Line {
   Line(const Point3& eye, const Point3& target, double drop)
       : dx(target.x - eye.x),
         dy(target.y - eye.y),
-        per_squared(1 / (dx * dx + dy * dy)),
-        length(std::hypot(dx, dy)),
+        squared(dx * dx + dy * dy),
+        per_squared(1 / squared),
+        length(std::sqrt(squared)),
         slope((target.z - eye.z) / length - drop * length),
-        over(eye.z, target.z, 1, drop * (dx * dx + dy * dy)) {}
+        over(eye.z, target.z, 1, drop * squared) {}
 
-  double dx, dy;
-  double per_squared;  ///< one by the squared length
-  double length;
+  double dx, dy, squared, per_squared, length;
   double slope;  ///< at which the target appears
   LineOverGround over;
 };

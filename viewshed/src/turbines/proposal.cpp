@@ -24,14 +24,14 @@ std::vector<std::uint32_t> bits_of_proposal(const Zone& zone) {
 
 }  // namespace
 
-bool has_proposal(const ZoneRequest& request) {
-  const std::size_t proposed = proposed_turbines(request);
-  return proposed > 0 && proposed < request.turbines.size();
+bool has_proposal(const std::vector<Turbine>& turbines) {
+  const std::size_t proposed = proposed_turbines(turbines);
+  return proposed > 0 && proposed < turbines.size();
 }
 
-std::size_t turbines_with(TurbineStatus status, const ZoneRequest& request) {
-  return static_cast<std::size_t>(std::count_if(request.turbines.begin(), request.turbines.end(),
-                                                [&](const Turbine& t) { return t.status == status; }));
+std::size_t turbines_with(TurbineStatus status, const std::vector<Turbine>& turbines) {
+  return static_cast<std::size_t>(
+      std::count_if(turbines.begin(), turbines.end(), [&](const Turbine& t) { return t.status == status; }));
 }
 
 std::vector<Turbine> turbines_of_study_area(const ZoneRequest& request) {

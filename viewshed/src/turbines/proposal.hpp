@@ -11,9 +11,9 @@
 namespace itin::viewshed {
 
 /// Returns the number of turbines of this status.
-std::size_t turbines_with(TurbineStatus status, const ZoneRequest& request);
-inline std::size_t proposed_turbines(const ZoneRequest& request) {
-  return turbines_with(TurbineStatus::kProposed, request);
+std::size_t turbines_with(TurbineStatus status, const std::vector<Turbine>& turbines);
+inline std::size_t proposed_turbines(const std::vector<Turbine>& turbines) {
+  return turbines_with(TurbineStatus::kProposed, turbines);
 }
 
 /// Returns how many tips of proposed turbines are seen; kCountOutside outside.

@@ -88,10 +88,7 @@ const char* planning_status(const Turbine& turbine) {
 }
 
 std::string turbine_style(const std::vector<Turbine>& turbines) {
-  const auto proposed = std::count_if(turbines.begin(), turbines.end(),
-                                      [](const Turbine& t) { return t.status == TurbineStatus::kProposed; });
-  if (proposed > 0 && static_cast<std::size_t>(proposed) < turbines.size())
-    return point_style("planning_status", kTurbineStatuses);
+  if (has_proposal(turbines)) return point_style("planning_status", kTurbineStatuses);
   const std::vector<std::string> farms = farms_of(turbines);
   const std::vector<Rgba> colours = farm_colours(turbines);
   std::vector<FeatureClass> classes;

@@ -89,7 +89,7 @@ ZoneMap farm_map(const Zone& zone, const Visibility& visibility, std::size_t mos
 }
 
 ZoneMap proposal_map(const Zone& zone, const Visibility& visibility) {
-  ZoneMap map = banded_map(zone, count_bands(proposed_turbines(zone.request), zone.request.count_bands),
+  ZoneMap map = banded_map(zone, count_bands(proposed_turbines(zone.request.turbines), zone.request.count_bands),
                            proposed_tips(zone, visibility), visibility.tip_undecided);
   map.title = "Zone of theoretical visibility of the proposal: blade tips";
   map.heading = "Proposed turbines with their blade tip visible";

@@ -249,7 +249,7 @@ void write_proposal(const Zone& zone, const View& view, RasterFolder& folder) {
   folder.write("proposal-tip-count" + view.suffix,
                fmt::format("how many proposed turbines have their tip seen; 65535: {}{}", kNoValue, view.remark),
                proposed_tips(zone, view.seen), with_nodata(kCountOutside),
-               banded_style(count_bands(proposed_turbines(zone.request), zone.request.count_bands)));
+               banded_style(count_bands(proposed_turbines(zone.request.turbines), zone.request.count_bands)));
   RasterDescription description = with_nodata(kNoAddition);
   for (std::size_t i = 0; i < kAdditions.size(); ++i)
     description.classes.push_back({static_cast<int>(i), kAdditions[i].text, kAdditions[i].colour});

@@ -26,7 +26,7 @@ GIVEN_TURBINES = (
     Number("ROTOR_DIAMETER", "Rotor diameter of those that give none", "--rotor-diameter", unit="m", minimum=0),
     Number("TIP_HEIGHT", "Tip height of those that give none", "--tip-height", unit="m", minimum=0),
 )
-TURBINE_FIELDS = (
+ABOUT_TURBINES = (
     Field("NAME_FIELD", "Field of names", "--name-field", of="TURBINES", advanced=True),
     Field("HUB_HEIGHT_FIELD", "Field of hub heights", "--hub-height-field", of="TURBINES", advanced=True),
     Field(
@@ -46,6 +46,7 @@ TURBINE_FIELDS = (
         advanced=True,
     ),
     Text("PROPOSAL", "Farm that is the proposal, where others are in planning", "--proposal", advanced=True),
+    Text("FARM", "Farm of those that give none", "--farm", advanced=True),
 )
 
 
@@ -107,8 +108,7 @@ class Ztv(Task):
         Number("FREQUENCY", "Frequency of these links [GHz]", "--frequency", unit="GHz", minimum=0, advanced=True),
         Point("RADAR", "Radar", "--radar", height="RADAR_HEIGHT", advanced=True),
         Number("RADAR_HEIGHT", "Height of the radar above the ground", unit="m", advanced=True),
-        *TURBINE_FIELDS,
-        Text("FARM", "Farm of those that give none", "--farm", advanced=True),
+        *ABOUT_TURBINES,
         Text("BANDS", "Numbers of turbines in bands of maps, as 1,5,10", "--bands", advanced=True),
         File("RADIUS_PRESET", "Radii by tip height", "--radius-preset", filter="JSON (*.json)", advanced=True),
         Number(
@@ -198,8 +198,7 @@ class Dwellings(Task):
         ),
         Number("FLICKER_REACH", "Reach of shadows, in diameters of the rotor", "--flicker-reach", default=10, advanced=True),
         Number("BLADE_WIDTH", "Mean width of a blade, for the reach instead", "--blade-width", unit="m", advanced=True),
-        *TURBINE_FIELDS,
-        Text("FARM", "Farm of those that give none", "--farm", advanced=True),
+        *ABOUT_TURBINES,
         Text("SHEETS_OF", "Sheets of these dwellings only: names or ids", "--sheets-of", advanced=True),
         *shared.SEASONS,
         shared.NODATA,

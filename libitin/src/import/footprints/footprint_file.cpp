@@ -12,6 +12,7 @@
 #include <itin/file_digest.hpp>
 #include <itin/file_ending.hpp>
 #include <itin/raster_values.hpp>
+#include <itin/sources_in.hpp>
 
 #include "gdal/source_path.hpp"
 #include "import/footprints/city_json.hpp"
@@ -142,13 +143,6 @@ FootprintFile read_file(const std::string& path, SourceKind kind, const Footprin
   return file;
 }
 
-/// Returns a file's name without folders, and the beginning of its checksum.
-std::string name_and_checksum(const std::string& path, Progress& progress) {
-  constexpr std::size_t kDigits = 12;
-  const std::string name = std::filesystem::path(path).filename().string(), digest = file_sha256(path, progress);
-  return digest.empty() ? name : fmt::format("{} (SHA-256 {})", name, digest.substr(0, kDigits));
-}
-
 bool has_height(const FootprintFeature& feature) {
   return feature.height || feature.eaves;
 }
@@ -197,7 +191,7 @@ std::vector<FootprintFile> read_footprint_files(const ImportOptions& options, co
     surface.emplace(SurfaceHeightsQuery{options.height_from, options.height_percentile.value_or(50), import.datums,
                                         options.memory_bytes},
                     store, progress);
-    raster_of_heights = name_and_checksum(options.height_from, progress);
+    raster_of_heights = name_and_checksum(options.height_from, file_sha256(options.height_from, progress));
   }
   std::vector<FootprintFile> files;
   for (std::size_t i = 0; i < kinds.size(); ++i) {

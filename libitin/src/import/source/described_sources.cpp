@@ -26,12 +26,13 @@ std::string about(const SourceInfo& source, const StatedHeights& heights) {
   return text;
 }
 
-std::string named(const SourceInfo& source) {
-  const std::string name = std::filesystem::path(source.path).filename().string();
-  return source.sha256.empty() ? name : fmt::format("{} (SHA-256 {})", name, source.sha256.substr(0, 12));
-}
-
 }  // namespace
+
+std::string name_and_checksum(const std::string& path, const std::string& sha256) {
+  constexpr std::size_t kDigits = 12;
+  const std::string name = std::filesystem::path(path).filename().string();
+  return sha256.empty() ? name : fmt::format("{} (SHA-256 {})", name, sha256.substr(0, kDigits));
+}
 
 std::vector<std::string> described(const std::vector<SourceInfo>& sources, const StoreMetadata& metadata) {
   const StatedHeights heights(metadata);
@@ -39,7 +40,7 @@ std::vector<std::string> described(const std::vector<SourceInfo>& sources, const
   for (const SourceInfo& source : sources) {
     const std::string text = about(source, heights);
     if (sorts.empty() || sorts.back().second != text) sorts.push_back({{}, text});
-    sorts.back().first.push_back(named(source));
+    sorts.back().first.push_back(name_and_checksum(source.path, source.sha256));
   }
   std::vector<std::string> lines;
   for (auto& [names, text] : sorts) {

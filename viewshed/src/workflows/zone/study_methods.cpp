@@ -180,14 +180,14 @@ std::string missing_in_words(const ZoneStudy& study) {
 std::string others_in_words(const ZoneRequest& request) {
   using enum TurbineStatus;
   std::vector<std::string> parts;
-  std::size_t rest = request.turbines.size() - proposed_turbines(request);
+  std::size_t rest = request.turbines.size() - proposed_turbines(request.turbines);
   const auto add = [&](std::size_t count, const char* what) {
     if (count > 0) parts.push_back(fmt::format("{} {}", count, what));
     rest -= count;
   };
-  add(turbines_with(kInPlanning, request), "in planning");
-  add(turbines_with(kConsented, request), "consented");
-  add(turbines_with(kExisting, request), "existing");
+  add(turbines_with(kInPlanning, request.turbines), "in planning");
+  add(turbines_with(kConsented, request.turbines), "consented");
+  add(turbines_with(kExisting, request.turbines), "existing");
   add(rest, "other");
   return listed(parts) + " turbines";
 }
@@ -197,7 +197,7 @@ std::string proposal_in_words(const ZoneRequest& request) {
       "The proposal is {}; {} are assessed with it. The study area is that of the proposal alone. Within it, maps and "
       "areas are cumulative, and count all turbines, unless they are called those of the proposal, which count the "
       "proposed ones. The additional area is where tips of the proposal are seen and those of no other turbine.",
-      counted(proposed_turbines(request), "turbine"), others_in_words(request));
+      counted(proposed_turbines(request.turbines), "turbine"), others_in_words(request));
 }
 
 std::string combinations_in_words(const ZoneStudy& study) {
