@@ -4,8 +4,9 @@
     tests/fuzz/job_kills.py PROGRAM [--kills 200] [--seed N]             # two runners: itin job run
     tests/fuzz/job_kills.py PROGRAM --dask [--kills 200] [--seed N]      # two workers of Dask, and its scheduler at times
 
-The job is a visibility index of the demo's terrain in many tasks. Runners are killed by SIGKILL at random moments. In the
-end every task has one answer, and no process is left. Jobs follow each other until there were so many kills.
+The job is a visibility index of the demo's terrain in many tasks. Runners are killed by SIGKILL at random moments, and
+stopped at times for longer than others wait for them. In the end every task has one answer, and no process is left. Jobs
+follow each other until there were so many kills.
 """
 
 import contextlib
@@ -48,6 +49,11 @@ class Runners:
     def kill_one(self, chance):
         number = chance.randrange(2)
         runner = self.runners[number]
+        if chance.random() < 0.15:
+            runner.send_signal(signal.SIGSTOP)
+            time.sleep(1.5 * float(PATIENCE))
+            runner.send_signal(signal.SIGCONT)
+            return False
         was_running = runner.poll() is None
         if was_running:
             runner.kill()

@@ -195,6 +195,22 @@ TEST_F(Job, RemovesWhatAVanishedRunnerWasWriting) {
   EXPECT_EQ(files_in("claims"), 0U);
 }
 
+/// A runner that stood still loses its claim and what it was writing, and goes on with the tasks that are left.
+TEST_F(Job, OutlivesThatItIsTakenForGone) {
+  const ToldTasks tasks(3);
+  create(tasks);
+  int asked = 0;
+  const auto lose_all = [&] {
+    if (++asked != 2) return;
+    for (const char* folder : {"claims", "tmp"})
+      for (const auto& entry : fs::directory_iterator(path() + "/" + folder)) fs::remove(entry.path());
+  };
+  const RunReport report = run_job(JobFolder(path()), tasks, lose_all, {}, progress_);
+  EXPECT_EQ(report.answered, 3U);
+  EXPECT_EQ(asked, 5) << "once before all, and once more for the task whose answer was lost";
+  for (const std::size_t task : {0U, 1U, 2U}) EXPECT_EQ(JobFolder(path()).answer(task), "answer " + std::to_string(task));
+}
+
 /// A runner that is killed while it writes leaves a part of a file.
 TEST_F(Job, PassesOverWhatARunnerLeftUnfinished) {
   const ToldTasks tasks(2);

@@ -39,6 +39,10 @@ bool JobClaim::is_first() const {
   return job_.first_claim(task_) == file_.path();
 }
 
+bool JobClaim::is_held() const {
+  return ::access(file_.path().c_str(), F_OK) == 0;
+}
+
 void JobClaim::keep_touching(double every_s) {
   std::unique_lock lock(mutex_);
   while (!ended_.wait_for(lock, std::chrono::duration<double>(every_s), [this] { return end_; }))

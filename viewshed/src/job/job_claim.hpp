@@ -23,6 +23,8 @@ class JobClaim {
   /// Tells whether no other runner has claimed the task before. Runners that saw it open at the same time all claim it,
   /// and all but the first leave it.
   bool is_first() const;
+  /// Tells whether no other runner has removed the claim, which it does after the time that a claim lasts untouched.
+  bool is_held() const;
   JobClaim(const JobClaim&) = delete;
   JobClaim& operator=(const JobClaim&) = delete;
 

@@ -132,18 +132,20 @@ std::optional<double> touched_at(const std::string& path) {
 /// The time on the file server's clock.
 double time_of_server(const std::string& job) {
   static std::atomic<unsigned> asked = 0;
-  const std::string path = fmt::format("{}/tmp/clock.{}.{}", job, ++asked, runner_name());
-  const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (file < 0 || ::write(file, "\n", 1) != 1) {
-    const std::string why = std::strerror(errno);
-    if (file >= 0) ::close(file);
-    throw JobError(JobEnd::kTryAgain, path + ": cannot be written: " + why);
+  // A runner that takes this one for gone may remove the file before it is looked at.
+  while (true) {
+    const std::string path = fmt::format("{}/tmp/clock.{}.{}", job, ++asked, runner_name());
+    const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    if (file < 0 || ::write(file, "\n", 1) != 1) {
+      const std::string why = std::strerror(errno);
+      if (file >= 0) ::close(file);
+      throw JobError(JobEnd::kTryAgain, path + ": cannot be written: " + why);
+    }
+    ::close(file);
+    const std::optional<double> now = touched_at(path);
+    ::unlink(path.c_str());
+    if (now) return *now;
   }
-  ::close(file);
-  const std::optional<double> now = touched_at(path);
-  ::unlink(path.c_str());
-  if (!now) throw JobError(JobEnd::kTryAgain, path + ": vanished; is the folder being removed?");
-  return *now;
 }
 
 }  // namespace

@@ -85,9 +85,19 @@ class Runner {
     } catch (const Error& error) {
       return fail(task, error, false);
     }
-    job_.seal(task, answer, guard_);
-    job_.note_time(task, watch.lap(), peak_memory_bytes());
-    ++report_.answered;
+    keep(task, answer, watch.lap(), claim);
+  }
+
+  void keep(std::size_t task, const std::string& answer, double seconds, const JobClaim& claim) {
+    try {
+      job_.seal(task, answer, guard_);
+      ++report_.answered;
+      job_.note_time(task, seconds, peak_memory_bytes());
+    } catch (const JobError& error) {
+      // A runner that stood still for too long is taken for gone, and what it was writing is removed by the one that
+      // answers its task instead.
+      if (error.end() != JobEnd::kTryAgain || claim.is_held()) throw;
+    }
   }
 
   void fail(std::size_t task, const Error& error, bool refused) {
