@@ -208,7 +208,8 @@ TEST_F(Job, OutlivesThatItIsTakenForGone) {
   const RunReport report = run_job(JobFolder(path()), tasks, lose_all, {}, progress_);
   EXPECT_EQ(report.answered, 3U);
   EXPECT_EQ(asked, 5) << "once before all, and once more for the task whose answer was lost";
-  for (const std::size_t task : {0U, 1U, 2U}) EXPECT_EQ(JobFolder(path()).answer(task), "answer " + std::to_string(task));
+  for (const std::size_t task : {0U, 1U, 2U})
+    EXPECT_EQ(JobFolder(path()).answer(task), "answer " + std::to_string(task));
 }
 
 /// A runner that is killed while it writes leaves a part of a file.
