@@ -15,7 +15,7 @@
 #include "huge_store/fractal_levels.hpp"
 #include "huge_store/square.hpp"
 #include "import/source/source_context.hpp"
-#include "store/radix_sort.hpp"
+#include "store/codec/radix_sort.hpp"
 #include "store/store_writer.hpp"
 
 namespace itin::huge {

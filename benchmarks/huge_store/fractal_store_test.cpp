@@ -18,7 +18,7 @@
 #include <itin/triangulate.hpp>
 
 #include "huge_store/square.hpp"
-#include "store/store_rows.hpp"
+#include "store/file/store_rows.hpp"
 #include "support/raster_file.hpp"
 #include "support/row_bytes.hpp"
 #include "support/sound_store.hpp"

@@ -1,7 +1,7 @@
 // Block codec: points per second both ways, and bytes per point, on synthetic terrain like the real thing.
 //
 //   itin_benchmarks --benchmark_filter=Block
-#include "store/block_codec.hpp"
+#include "store/codec/block_codec.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -17,10 +17,10 @@
 #include <itin/store.hpp>
 #include <itin/triangulate.hpp>
 
-#include "store/point_index.hpp"
+#include "store/codec/point_index.hpp"
 #include "support/vector_file.hpp"
-#include "triangulate/delaunay.hpp"
-#include "triangulate/selection.hpp"
+#include "triangulate/apex/selection.hpp"
+#include "triangulate/mesh/delaunay.hpp"
 
 namespace {
 

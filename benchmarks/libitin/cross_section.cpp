@@ -14,7 +14,7 @@
 #include <itin/cross_section.hpp>
 #include <itin/store.hpp>
 
-#include "store/point_index.hpp"
+#include "store/codec/point_index.hpp"
 
 namespace itin {
 namespace {

@@ -10,9 +10,9 @@
 #include <itin/detail.hpp>
 
 #include "libitin/hills.hpp"
-#include "pyramid/greedy.hpp"
+#include "pyramid/greedy/greedy.hpp"
 #include "support/points.hpp"
-#include "triangulate/region.hpp"
+#include "triangulate/region/region.hpp"
 
 namespace itin {
 namespace {

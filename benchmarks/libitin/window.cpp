@@ -4,7 +4,7 @@
 
 #include <benchmark/benchmark.h>
 
-#include "triangulate/grid_window.hpp"
+#include "triangulate/region/grid_window.hpp"
 
 namespace itin {
 namespace {

@@ -11,10 +11,10 @@
 #include <viewshed/dwellings.hpp>
 
 #include "dwellings/flicker_options.hpp"
-#include "options/earth_options.hpp"
 #include "options/foliage_options.hpp"
 #include "options/memory_option.hpp"
 #include "options/nodata_option.hpp"
+#include "options/radio/earth_options.hpp"
 #include "options/sheet_options.hpp"
 #include "options/surface_options.hpp"
 #include "output/output_path.hpp"

@@ -8,7 +8,7 @@
 #include <profile/documents.hpp>
 
 #include "options/memory_option.hpp"
-#include "options/off_the_data.hpp"
+#include "options/places/off_the_data.hpp"
 #include "output/store_document.hpp"
 #include "program/call_files.hpp"
 #include "program/help.hpp"

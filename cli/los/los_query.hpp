@@ -4,9 +4,9 @@
 #include <profile/los.hpp>
 
 #include "los/los_people.hpp"
-#include "options/budget_options.hpp"
-#include "options/earth_options.hpp"
-#include "options/radio_options.hpp"
+#include "options/radio/budget_options.hpp"
+#include "options/radio/earth_options.hpp"
+#include "options/radio/radio_options.hpp"
 
 namespace itin::cli {
 

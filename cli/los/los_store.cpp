@@ -6,7 +6,7 @@
 #include <profile/foliage_text.hpp>
 #include <profile/report_text.hpp>
 
-#include "options/off_the_data.hpp"
+#include "options/places/off_the_data.hpp"
 #include "output/store_document.hpp"
 #include "program/help.hpp"
 #include "program/unusable_options.hpp"

@@ -12,9 +12,9 @@
 
 #include "options/detail_options.hpp"
 #include "options/foliage_options.hpp"
-#include "options/in_crs.hpp"
 #include "options/memory_option.hpp"
 #include "options/nodata_option.hpp"
+#include "options/places/in_crs.hpp"
 #include "options/surface_options.hpp"
 #include "program/values.hpp"
 #include "program/verb.hpp"

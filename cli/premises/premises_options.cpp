@@ -5,10 +5,10 @@
 #include <itin/error.hpp>
 #include <itin/site_list.hpp>
 
-#include "options/mast_file.hpp"
-#include "options/off_the_data.hpp"
-#include "options/taken_heights.hpp"
-#include "options/wave_options.hpp"
+#include "options/places/mast_file.hpp"
+#include "options/places/off_the_data.hpp"
+#include "options/places/taken_heights.hpp"
+#include "options/radio/wave_options.hpp"
 #include "program/call_files.hpp"
 #include "program/help.hpp"
 #include "program/values.hpp"

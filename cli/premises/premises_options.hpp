@@ -10,11 +10,11 @@
 #include <itin/sites.hpp>
 #include <viewshed/premises.hpp>
 
-#include "options/antenna_options.hpp"
-#include "options/earth_options.hpp"
-#include "options/in_crs.hpp"
 #include "options/memory_option.hpp"
 #include "options/nodata_option.hpp"
+#include "options/places/in_crs.hpp"
+#include "options/radio/antenna_options.hpp"
+#include "options/radio/earth_options.hpp"
 #include "options/sheet_options.hpp"
 #include "options/surface_options.hpp"
 #include "output/output_path.hpp"

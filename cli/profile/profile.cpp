@@ -19,10 +19,10 @@
 #include <profile/path_profiles.hpp>
 
 #include "options/foliage_options.hpp"
-#include "options/in_crs.hpp"
 #include "options/memory_option.hpp"
-#include "options/off_the_data.hpp"
 #include "options/picture_options.hpp"
+#include "options/places/in_crs.hpp"
+#include "options/places/off_the_data.hpp"
 #include "options/surface_options.hpp"
 #include "output/output_path.hpp"
 #include "output/store_document.hpp"

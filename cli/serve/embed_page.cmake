@@ -19,6 +19,6 @@ foreach(name IN LISTS files)
   math(EXPR number "${number} + 1")
 endforeach()
 file(REMOVE ${OUTPUT}.gz)
-file(WRITE ${OUTPUT} "#include \"serve/page_files.hpp\"\n\nnamespace itin::cli {\n\nnamespace {\n\n${arrays}
+file(WRITE ${OUTPUT} "#include \"serve/http/page_files.hpp\"\n\nnamespace itin::cli {\n\nnamespace {\n\n${arrays}
 constexpr PageFile kPageFiles[] = {\n${entries}};\n\n}  // namespace\n
 std::span<const PageFile> page_files() {\n  return kPageFiles;\n}\n\n}  // namespace itin::cli\n")

@@ -9,14 +9,14 @@
 
 #include <itin/error.hpp>
 
-#include "serve/failure.hpp"
-#include "serve/given_options.hpp"
-#include "serve/ground_tiles.hpp"
-#include "serve/live_map.hpp"
-#include "serve/los_answer.hpp"
-#include "serve/openapi.hpp"
-#include "serve/page_answer.hpp"
-#include "serve/place_answer.hpp"
+#include "serve/ground/given_options.hpp"
+#include "serve/ground/ground_tiles.hpp"
+#include "serve/ground/los_answer.hpp"
+#include "serve/ground/place_answer.hpp"
+#include "serve/http/failure.hpp"
+#include "serve/http/openapi.hpp"
+#include "serve/http/page_answer.hpp"
+#include "serve/live/live_map.hpp"
 #include "serve/served_info.hpp"
 
 namespace itin::cli {

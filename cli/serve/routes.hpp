@@ -3,14 +3,14 @@
 
 #include <itin/progress.hpp>
 
-#include "serve/admission.hpp"
-#include "serve/http_server.hpp"
-#include "serve/jobs.hpp"
-#include "serve/served_store.hpp"
-#include "serve/server_folder.hpp"
-#include "serve/tile_grid.hpp"
-#include "serve/tin_windows.hpp"
-#include "serve/uploads.hpp"
+#include "serve/calls/admission.hpp"
+#include "serve/calls/jobs.hpp"
+#include "serve/calls/server_folder.hpp"
+#include "serve/calls/tin_windows.hpp"
+#include "serve/calls/uploads.hpp"
+#include "serve/ground/served_store.hpp"
+#include "serve/ground/tile_grid.hpp"
+#include "serve/http/http_server.hpp"
 
 namespace itin::cli {
 

@@ -18,10 +18,10 @@
 #include "program/interruption.hpp"
 #include "program/values.hpp"
 #include "program/verb.hpp"
-#include "serve/admission.hpp"
-#include "serve/http_server.hpp"
+#include "serve/calls/admission.hpp"
+#include "serve/ground/served_store.hpp"
+#include "serve/http/http_server.hpp"
 #include "serve/routes.hpp"
-#include "serve/served_store.hpp"
 
 namespace itin::cli {
 

@@ -5,10 +5,10 @@
 #include <fmt/format.h>
 
 #include "options/half_posting.hpp"
-#include "serve/ground_tiles.hpp"
-#include "serve/job_call.hpp"
-#include "serve/live_view.hpp"
-#include "serve/page_answer.hpp"
+#include "serve/calls/job_call.hpp"
+#include "serve/ground/ground_tiles.hpp"
+#include "serve/http/page_answer.hpp"
+#include "serve/live/live_view.hpp"
 #include "store/info_document.hpp"
 
 namespace itin::cli {

@@ -3,8 +3,8 @@
 
 #include <itin/document.hpp>
 
-#include "serve/served_store.hpp"
-#include "serve/tile_grid.hpp"
+#include "serve/ground/served_store.hpp"
+#include "serve/ground/tile_grid.hpp"
 
 namespace itin::cli {
 

@@ -9,10 +9,10 @@
 #include <itin/site_list.hpp>
 
 #include "options/half_posting.hpp"
-#include "options/mast_file.hpp"
+#include "options/places/mast_file.hpp"
+#include "options/places/taken_heights.hpp"
+#include "options/radio/wave_options.hpp"
 #include "options/radius_preset.hpp"
-#include "options/taken_heights.hpp"
-#include "options/wave_options.hpp"
 #include "output/store_document.hpp"
 #include "program/call_files.hpp"
 #include "program/help.hpp"

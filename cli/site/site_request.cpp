@@ -17,7 +17,7 @@
 #include <profile/antenna_columns.hpp>
 #include <viewshed/sector_names.hpp>
 
-#include "options/off_the_data.hpp"
+#include "options/places/off_the_data.hpp"
 
 namespace itin::cli {
 

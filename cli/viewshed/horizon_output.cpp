@@ -13,7 +13,7 @@
 #include <profile/chart.hpp>
 #include <viewshed/documents.hpp>
 
-#include "options/off_the_data.hpp"
+#include "options/places/off_the_data.hpp"
 #include "output/output_path.hpp"
 #include "program/call_files.hpp"
 #include "program/help.hpp"

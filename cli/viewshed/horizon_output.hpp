@@ -10,7 +10,7 @@
 #include <itin/store.hpp>
 #include <viewshed/horizon.hpp>
 
-#include "options/in_crs.hpp"
+#include "options/places/in_crs.hpp"
 #include "program/verb.hpp"
 #include "viewshed/viewshed_targets.hpp"
 

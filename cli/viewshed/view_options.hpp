@@ -17,11 +17,11 @@
 #include <viewshed/request.hpp>
 
 #include "options/detail_options.hpp"
-#include "options/earth_options.hpp"
 #include "options/engine_option.hpp"
 #include "options/foliage_options.hpp"
 #include "options/nodata_option.hpp"
-#include "options/observer_options.hpp"
+#include "options/places/observer_options.hpp"
+#include "options/radio/earth_options.hpp"
 #include "options/surface_options.hpp"
 #include "viewshed/viewshed_radio.hpp"
 #include "viewshed/viewshed_targets.hpp"

@@ -8,8 +8,8 @@
 
 #include <viewshed/result.hpp>
 
-#include "options/budget_options.hpp"
-#include "options/wave_options.hpp"
+#include "options/radio/budget_options.hpp"
+#include "options/radio/wave_options.hpp"
 
 namespace itin::cli {
 

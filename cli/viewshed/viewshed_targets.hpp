@@ -8,7 +8,7 @@
 #include <itin/store.hpp>
 #include <viewshed/request.hpp>
 
-#include "options/observer_options.hpp"
+#include "options/places/observer_options.hpp"
 #include "program/verb.hpp"
 
 namespace itin::cli {

@@ -25,12 +25,12 @@
 #include <viewshed/visibility_index.hpp>
 
 #include "options/detail_options.hpp"
-#include "options/earth_options.hpp"
 #include "options/memory_option.hpp"
 #include "options/nodata_option.hpp"
+#include "options/places/window_options.hpp"
+#include "options/radio/earth_options.hpp"
 #include "options/sheet_options.hpp"
 #include "options/surface_options.hpp"
-#include "options/window_options.hpp"
 #include "output/output_path.hpp"
 #include "output/store_document.hpp"
 #include "program/call_files.hpp"

@@ -17,11 +17,11 @@
 #include <viewshed/zone_study_tasks.hpp>
 
 #include "options/detail_options.hpp"
-#include "options/earth_options.hpp"
 #include "options/foliage_options.hpp"
 #include "options/half_posting.hpp"
 #include "options/memory_option.hpp"
 #include "options/nodata_option.hpp"
+#include "options/radio/earth_options.hpp"
 #include "options/radius_preset.hpp"
 #include "options/sheet_options.hpp"
 #include "options/surface_options.hpp"

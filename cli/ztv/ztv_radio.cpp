@@ -5,8 +5,8 @@
 #include <itin/error.hpp>
 #include <profile/links.hpp>
 
-#include "options/off_the_data.hpp"
-#include "options/wave_options.hpp"
+#include "options/places/off_the_data.hpp"
+#include "options/radio/wave_options.hpp"
 #include "program/call_files.hpp"
 #include "program/help.hpp"
 

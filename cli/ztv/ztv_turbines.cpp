@@ -4,7 +4,7 @@
 
 #include <itin/error.hpp>
 
-#include "options/off_the_data.hpp"
+#include "options/places/off_the_data.hpp"
 #include "program/call_files.hpp"
 #include "program/field_names.hpp"
 #include "program/help.hpp"

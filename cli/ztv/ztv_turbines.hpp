@@ -6,7 +6,7 @@
 #include <itin/store.hpp>
 #include <viewshed/zone_study.hpp>
 
-#include "options/in_crs.hpp"
+#include "options/places/in_crs.hpp"
 #include "options/turbine_size.hpp"
 #include "program/verb.hpp"
 

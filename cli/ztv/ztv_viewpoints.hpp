@@ -8,7 +8,7 @@
 #include <itin/store.hpp>
 #include <viewshed/zone_study.hpp>
 
-#include "options/in_crs.hpp"
+#include "options/places/in_crs.hpp"
 #include "program/verb.hpp"
 
 namespace itin::cli {

@@ -79,6 +79,14 @@ TEST_P(Rooms, EveryFolderIsInTheTable) {
   for (const auto& [room, place] : order) EXPECT_TRUE(fs::is_directory(sources / room)) << room;
 }
 
+TEST_P(Rooms, HoldAtMostThirtyFiles) {
+  constexpr std::size_t kMost = 30;
+  const fs::path sources = kRoot / GetParam();
+  std::map<std::string, std::size_t> files;
+  for (const fs::path& file : sources_below(sources)) ++files[room_of(sources, file)];
+  for (const auto& [room, count] : files) EXPECT_LE(count, kMost) << room;
+}
+
 TEST_P(Rooms, IncludeOnlyWhatStandsAboveThemInTheTable) {
   const fs::path sources = kRoot / GetParam();
   const std::map<std::string, int> order = order_of_rooms(sources);
@@ -124,7 +132,7 @@ TEST(Libraries, RegisterDriversOfGdalInOnePlace) {
   const std::regex registration(
       "GDALAllRegister|OGRRegisterAll|GDALRegister_|RegisterOGR|GDALDataset::Open|GDALOpen(Ex|Shared)?\\(|"
       "GDALIdentifyDriver");
-  const fs::path place = kRoot / "libitin/src/gdal/drivers.cpp";
+  const fs::path place = kRoot / "libitin/src/gdal/files/drivers.cpp";
   int calls = 0;
   for_each_line({"libitin", "viewshed", "profile", "cli"}, [&](const fs::path& file, const std::string& line) {
     if (!std::regex_search(line, registration)) return;

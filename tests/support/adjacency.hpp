@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "triangulate/delaunay.hpp"
+#include "triangulate/mesh/delaunay.hpp"
 
 namespace itin::test {
 

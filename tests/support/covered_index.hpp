@@ -3,7 +3,7 @@
 
 #include <set>
 
-#include "pyramid/coverage.hpp"
+#include "pyramid/coverage/coverage.hpp"
 #include "support/points.hpp"
 
 namespace itin::test {

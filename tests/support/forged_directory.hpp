@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "store/directory.hpp"
-#include "store/store_format.hpp"
-#include "store/store_rows.hpp"
+#include "store/codec/store_format.hpp"
+#include "store/file/directory.hpp"
+#include "store/file/store_rows.hpp"
 #include "support/forged_rows.hpp"
 #include "support/row_bytes.hpp"
 

@@ -9,8 +9,8 @@
 #include <gtest/gtest.h>
 #include <sqlite3.h>
 
+#include "store/codec/seal.hpp"
 #include "store/metadata_json.hpp"
-#include "store/seal.hpp"
 
 namespace itin::test {
 

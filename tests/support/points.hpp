@@ -14,8 +14,8 @@
 #include <itin/geometry.hpp>
 #include <itin/progress.hpp>
 
-#include "pyramid/sorted_points.hpp"
-#include "pyramid/working_index.hpp"
+#include "pyramid/points/sorted_points.hpp"
+#include "pyramid/points/working_index.hpp"
 
 namespace itin::test {
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "store/store_rows.hpp"
+#include "store/file/store_rows.hpp"
 
 namespace itin::test {
 

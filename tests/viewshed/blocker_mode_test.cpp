@@ -9,7 +9,7 @@
 
 #include "line/sight_line.hpp"
 #include "modes/feature_names.hpp"
-#include "modes/first_blocker.hpp"
+#include "modes/lines/first_blocker.hpp"
 #include "support/exact_line_of_sight.hpp"
 #include "support/hills_and_town.hpp"
 #include "support/impatient.hpp"

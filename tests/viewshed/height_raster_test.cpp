@@ -12,7 +12,7 @@
 #include <itin/triangulate.hpp>
 #include <viewshed/viewshed.hpp>
 
-#include "features/terrain_heights.hpp"
+#include "features/mesh/terrain_heights.hpp"
 #include "support/raster_file.hpp"
 #include "support/seed.hpp"
 #include "support/temporary_directory.hpp"

@@ -9,7 +9,7 @@
 #include <itin/error.hpp>
 #include <viewshed/result.hpp>
 
-#include "modes/error_realisations.hpp"
+#include "modes/lines/error_realisations.hpp"
 #include "support/exact_line_of_sight.hpp"
 #include "support/terrain_tin.hpp"
 #include "support/viewshed_of.hpp"

@@ -22,7 +22,7 @@
 #include <viewshed/turbines.hpp>
 
 #include "certify/level_source.hpp"
-#include "features/terrain_heights.hpp"
+#include "features/mesh/terrain_heights.hpp"
 #include "support/full_detail.hpp"
 #include "support/raster_file.hpp"
 #include "support/same_zone.hpp"

@@ -1,5 +1,5 @@
 // The walk from triangle to triangle, against the search among all that may lie under the line.
-#include "modes/surface_pieces.hpp"
+#include "modes/lines/surface_pieces.hpp"
 
 #include <random>
 #include <vector>

@@ -10,9 +10,9 @@
 #include "cross_section/nearby_apex.hpp"
 #include "cross_section/retrieval.hpp"
 #include "cross_section/section_walk.hpp"
+#include "triangulate/apex/read_once.hpp"
 #include "triangulate/raised_index.hpp"
-#include "triangulate/read_once.hpp"
-#include "triangulate/region.hpp"
+#include "triangulate/region/region.hpp"
 
 namespace itin {
 

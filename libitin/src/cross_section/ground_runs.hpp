@@ -12,7 +12,7 @@
 #include <itin/section_line.hpp>
 
 #include "geometry/predicates.hpp"
-#include "store/point_index.hpp"
+#include "store/codec/point_index.hpp"
 
 namespace itin {
 

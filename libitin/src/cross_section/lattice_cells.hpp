@@ -10,9 +10,9 @@
 
 #include "cross_section/cell_triangles.hpp"
 #include "cross_section/lattice_sheet.hpp"
-#include "store/point_index.hpp"
-#include "triangulate/read_once.hpp"
-#include "triangulate/selection.hpp"
+#include "store/codec/point_index.hpp"
+#include "triangulate/apex/read_once.hpp"
+#include "triangulate/apex/selection.hpp"
 
 namespace itin {
 

@@ -17,8 +17,8 @@
 
 #include <itin/geometry.hpp>
 
-#include "store/point_index.hpp"
-#include "triangulate/selection.hpp"
+#include "store/codec/point_index.hpp"
+#include "triangulate/apex/selection.hpp"
 
 namespace itin {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <iterator>
 
-#include "triangulate/apex_frame.hpp"
+#include "triangulate/apex/apex_frame.hpp"
 
 namespace itin {
 

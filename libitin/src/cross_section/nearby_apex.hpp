@@ -1,6 +1,6 @@
 // The third vertices of triangles along a line, from as few blocks as possible.
 //
-// ApexSearch (triangulate/apex.hpp) asks the index again for every edge. Here the answers are kept for a whole
+// ApexSearch (triangulate/apex/apex.hpp) asks the index again for every edge. Here the answers are kept for a whole
 // neighbourhood: the list of its leaves, the points read so far, in a lattice of bins, and the segments. A leaf is read
 // only when the current circle reaches it. Where a circle outgrows the neighbourhood, ApexSearch takes over.
 #pragma once
@@ -14,10 +14,10 @@
 #include <vector>
 
 #include "cross_section/section_walk.hpp"
-#include "store/point_index.hpp"
-#include "triangulate/apex.hpp"
-#include "triangulate/read_once.hpp"
-#include "triangulate/selection.hpp"
+#include "store/codec/point_index.hpp"
+#include "triangulate/apex/apex.hpp"
+#include "triangulate/apex/read_once.hpp"
+#include "triangulate/apex/selection.hpp"
 
 namespace itin {
 

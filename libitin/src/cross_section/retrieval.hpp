@@ -4,8 +4,8 @@
 #include <itin/cross_section.hpp>
 #include <itin/section_line.hpp>
 
-#include "store/point_index.hpp"
-#include "triangulate/selection.hpp"
+#include "store/codec/point_index.hpp"
+#include "triangulate/apex/selection.hpp"
 
 namespace itin {
 

@@ -9,7 +9,7 @@
 #include <itin/bucket_lists.hpp>
 
 #include "cross_section/section_walk.hpp"
-#include "triangulate/region.hpp"
+#include "triangulate/region/region.hpp"
 
 namespace itin {
 

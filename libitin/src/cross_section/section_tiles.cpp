@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "geometry/whole_division.hpp"
-#include "triangulate/read_once.hpp"
-#include "triangulate/region.hpp"
+#include "triangulate/apex/read_once.hpp"
+#include "triangulate/region/region.hpp"
 
 namespace itin {
 

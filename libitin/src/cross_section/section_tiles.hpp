@@ -17,9 +17,9 @@
 #include "cross_section/lattice_sheet.hpp"
 #include "cross_section/section_tile.hpp"
 #include "geometry/cell.hpp"
-#include "store/block_cache.hpp"
-#include "store/point_index.hpp"
-#include "triangulate/selection.hpp"
+#include "store/codec/point_index.hpp"
+#include "store/file/block_cache.hpp"
+#include "triangulate/apex/selection.hpp"
 
 namespace itin {
 

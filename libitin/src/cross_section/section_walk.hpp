@@ -8,8 +8,8 @@
 #include <itin/section_line.hpp>
 
 #include "cross_section/ground_runs.hpp"
-#include "store/point_index.hpp"
-#include "triangulate/selection.hpp"
+#include "store/codec/point_index.hpp"
+#include "triangulate/apex/selection.hpp"
 
 namespace itin {
 

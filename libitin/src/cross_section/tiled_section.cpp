@@ -10,8 +10,8 @@
 #include "cross_section/nearby_apex.hpp"
 #include "cross_section/section_walk.hpp"
 #include "cross_section/shared_cells.hpp"
-#include "triangulate/read_once.hpp"
-#include "triangulate/region.hpp"
+#include "triangulate/apex/read_once.hpp"
+#include "triangulate/region/region.hpp"
 
 namespace itin {
 

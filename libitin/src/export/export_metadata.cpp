@@ -7,7 +7,7 @@
 
 #include <itin/error.hpp>
 
-#include "gdal/quiet_gdal.hpp"
+#include "gdal/files/quiet_gdal.hpp"
 
 namespace itin {
 

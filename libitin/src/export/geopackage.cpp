@@ -2,8 +2,8 @@
 
 #include <itin/error.hpp>
 
-#include "gdal/drivers.hpp"
-#include "gdal/write_failure.hpp"
+#include "gdal/files/drivers.hpp"
+#include "gdal/files/write_failure.hpp"
 
 namespace itin {
 

@@ -17,7 +17,7 @@
 #include <ogrsf_frmts.h>
 
 #include "export/pending_file.hpp"
-#include "gdal/quiet_gdal.hpp"
+#include "gdal/files/quiet_gdal.hpp"
 
 namespace itin {
 

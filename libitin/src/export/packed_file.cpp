@@ -16,8 +16,8 @@
 #include "base/disk_sync.hpp"
 #include "export/buffered_file.hpp"
 #include "export/pending_file.hpp"
-#include "store/byte_stream.hpp"
-#include "store/zstd_frame.hpp"
+#include "store/codec/byte_stream.hpp"
+#include "store/codec/zstd_frame.hpp"
 
 namespace itin {
 

@@ -16,11 +16,11 @@
 #include <itin/raster_in_parts.hpp>
 
 #include "export/pending_file.hpp"
-#include "gdal/block_cache_limit.hpp"
-#include "gdal/drivers.hpp"
-#include "gdal/memory_raster.hpp"
-#include "gdal/quiet_gdal.hpp"
-#include "gdal/write_failure.hpp"
+#include "gdal/files/block_cache_limit.hpp"
+#include "gdal/files/drivers.hpp"
+#include "gdal/files/memory_raster.hpp"
+#include "gdal/files/quiet_gdal.hpp"
+#include "gdal/files/write_failure.hpp"
 
 namespace itin {
 

@@ -15,8 +15,8 @@
 #include "export/geopackage.hpp"
 #include "export/polygon_style.hpp"
 #include "export/region_layer.hpp"
-#include "gdal/drivers.hpp"
-#include "gdal/memory_raster.hpp"
+#include "gdal/files/drivers.hpp"
+#include "gdal/files/memory_raster.hpp"
 
 namespace itin {
 

@@ -3,7 +3,7 @@
 #include <itin/building_outlines.hpp>
 #include <itin/simplified.hpp>
 
-#include "store/footprint_codec.hpp"
+#include "store/segments/footprint_codec.hpp"
 
 namespace itin {
 

@@ -17,7 +17,7 @@
 
 #include "features/cell_patches.hpp"
 #include "features/ground_coverage.hpp"
-#include "features/terrain_heights.hpp"
+#include "features/mesh/terrain_heights.hpp"
 
 namespace itin {
 

@@ -13,7 +13,7 @@
 #include <itin/store.hpp>
 
 #include "features/raised_theme.hpp"
-#include "store/footprint_codec.hpp"
+#include "store/segments/footprint_codec.hpp"
 
 namespace itin {
 

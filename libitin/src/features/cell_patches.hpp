@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-#include "store/footprint.hpp"
+#include "store/segments/footprint.hpp"
 
 namespace itin {
 

@@ -5,7 +5,7 @@
 
 #include "features/features_near.hpp"
 #include "store/feature_table.hpp"
-#include "store/footprint_codec.hpp"
+#include "store/segments/footprint_codec.hpp"
 
 namespace itin {
 

@@ -7,13 +7,13 @@
 #include <itin/sort_unique.hpp>
 
 #include "features/feature_outlines.hpp"
-#include "features/hot_pixel.hpp"
+#include "features/plan/hot_pixel.hpp"
 #include "geometry/predicates.hpp"
-#include "store/edge_quadtree.hpp"
+#include "store/segments/edge_quadtree.hpp"
 #include "store/store_file.hpp"
 #include "topology/joined_lines.hpp"
-#include "triangulate/grid_window.hpp"
-#include "triangulate/selection.hpp"
+#include "triangulate/apex/selection.hpp"
+#include "triangulate/region/grid_window.hpp"
 
 namespace itin {
 

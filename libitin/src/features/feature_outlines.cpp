@@ -10,9 +10,9 @@
 #include <itin/sort_unique.hpp>
 #include <itin/triangulate.hpp>
 
-#include "features/plan_on_grid.hpp"
-#include "store/footprint_codec.hpp"
-#include "triangulate/grid_window.hpp"
+#include "features/plan/plan_on_grid.hpp"
+#include "store/segments/footprint_codec.hpp"
+#include "triangulate/region/grid_window.hpp"
 
 namespace itin {
 

@@ -16,7 +16,7 @@
 #include <itin/store.hpp>
 
 #include "features/footprint_extent.hpp"
-#include "store/footprint_codec.hpp"
+#include "store/segments/footprint_codec.hpp"
 
 namespace itin {
 

@@ -3,7 +3,7 @@
 
 #include <itin/geometry.hpp>
 
-#include "store/footprint.hpp"
+#include "store/segments/footprint.hpp"
 
 namespace itin {
 

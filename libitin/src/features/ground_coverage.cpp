@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "features/hot_pixel.hpp"
-#include "features/mask_index.hpp"
-#include "triangulate/apex.hpp"
+#include "features/plan/hot_pixel.hpp"
+#include "features/plan/mask_index.hpp"
+#include "triangulate/apex/apex.hpp"
 
 namespace itin {
 

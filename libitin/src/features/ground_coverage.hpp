@@ -5,9 +5,9 @@
 
 #include <itin/store.hpp>
 
-#include "features/plan_overlay.hpp"
-#include "features/terrain_heights.hpp"
-#include "store/point_index.hpp"
+#include "features/mesh/terrain_heights.hpp"
+#include "features/plan/plan_overlay.hpp"
+#include "store/codec/point_index.hpp"
 
 namespace itin {
 

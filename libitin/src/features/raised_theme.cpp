@@ -17,15 +17,15 @@
 #include "base/disjoint_sets.hpp"
 #include "base/stoppable.hpp"
 #include "features/cell_features.hpp"
-#include "features/feature_mesh.hpp"
-#include "features/footprint_arrangement.hpp"
-#include "features/foundation_reaches.hpp"
 #include "features/ground_coverage.hpp"
-#include "features/mask_index.hpp"
-#include "features/terrain_heights.hpp"
+#include "features/mesh/feature_mesh.hpp"
+#include "features/mesh/footprint_arrangement.hpp"
+#include "features/mesh/foundation_reaches.hpp"
+#include "features/mesh/terrain_heights.hpp"
+#include "features/plan/mask_index.hpp"
 #include "geometry/cell.hpp"
 #include "store/points_of_leaves.hpp"
-#include "triangulate/apex.hpp"
+#include "triangulate/apex/apex.hpp"
 
 namespace itin {
 

@@ -13,10 +13,10 @@
 #include <itin/progress.hpp>
 #include <itin/store.hpp>
 
-#include "features/ground_border.hpp"
-#include "features/plan_overlay.hpp"
-#include "store/clusters.hpp"
-#include "store/footprint_codec.hpp"
+#include "features/mesh/ground_border.hpp"
+#include "features/plan/plan_overlay.hpp"
+#include "store/segments/clusters.hpp"
+#include "store/segments/footprint_codec.hpp"
 #include "store/store_writer.hpp"
 
 namespace itin {

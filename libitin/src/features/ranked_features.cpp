@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "features/footprint_extent.hpp"
-#include "features/prepare_feature.hpp"
-#include "features/terrain_heights.hpp"
+#include "features/mesh/prepare_feature.hpp"
+#include "features/mesh/terrain_heights.hpp"
 #include "geometry/window_over.hpp"
-#include "store/footprint_codec.hpp"
+#include "store/segments/footprint_codec.hpp"
 #include "triangulate/selected_tin.hpp"
 
 namespace itin {

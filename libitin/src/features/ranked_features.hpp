@@ -15,7 +15,7 @@
 #include <itin/progress.hpp>
 #include <itin/store.hpp>
 
-#include "features/mask_index.hpp"
+#include "features/plan/mask_index.hpp"
 #include "geometry/cell.hpp"
 
 namespace itin {

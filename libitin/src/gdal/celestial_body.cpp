@@ -6,7 +6,7 @@
 #include <itin/celestial_body.hpp>
 
 #include "gdal/crs.hpp"
-#include "gdal/quiet_gdal.hpp"
+#include "gdal/files/quiet_gdal.hpp"
 
 namespace itin {
 

@@ -20,7 +20,7 @@
 #include <itin/parallel.hpp>
 
 #include "base/remembered.hpp"
-#include "gdal/quiet_gdal.hpp"
+#include "gdal/files/quiet_gdal.hpp"
 #include "gdal/vertical_axis.hpp"
 
 namespace itin {

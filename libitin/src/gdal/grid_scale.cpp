@@ -13,7 +13,7 @@
 #include <itin/error.hpp>
 #include <itin/grid_scale.hpp>
 
-#include "gdal/quiet_gdal.hpp"
+#include "gdal/files/quiet_gdal.hpp"
 #include "gdal/scale_meter.hpp"
 
 namespace itin {

@@ -8,8 +8,8 @@
 #include <itin/error.hpp>
 #include <itin/map_picture.hpp>
 
-#include "gdal/quiet_gdal.hpp"
-#include "gdal/raster_file.hpp"
+#include "gdal/files/quiet_gdal.hpp"
+#include "gdal/files/raster_file.hpp"
 
 namespace itin {
 

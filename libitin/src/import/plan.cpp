@@ -11,8 +11,8 @@
 #include <itin/file_ending.hpp>
 #include <itin/window_source.hpp>
 
-#include "gdal/archive.hpp"
-#include "gdal/source_path.hpp"
+#include "gdal/files/archive.hpp"
+#include "gdal/files/source_path.hpp"
 #include "import/points/point_source.hpp"
 #include "import/rasters/raster_source.hpp"
 #include "import/rasters/sea_source.hpp"

@@ -10,9 +10,9 @@
 #include <itin/progress.hpp>
 #include <itin/store.hpp>
 
+#include "pyramid/points/sorted_points.hpp"
+#include "pyramid/points/source_index.hpp"
 #include "pyramid/replacing_ground.hpp"
-#include "pyramid/sorted_points.hpp"
-#include "pyramid/source_index.hpp"
 
 namespace itin {
 

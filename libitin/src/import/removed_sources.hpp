@@ -6,7 +6,7 @@
 
 #include <itin/store.hpp>
 
-#include "pyramid/source_index.hpp"
+#include "pyramid/points/source_index.hpp"
 
 namespace itin {
 

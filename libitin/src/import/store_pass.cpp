@@ -20,8 +20,8 @@
 #include "import/source/true_scale.hpp"
 #include "import/vectors/line_layer.hpp"
 #include "pyramid/kept_ground.hpp"
+#include "store/codec/store_format.hpp"
 #include "store/store_file.hpp"
-#include "store/store_format.hpp"
 
 namespace itin {
 

@@ -17,8 +17,8 @@
 #include "import/source/terrain_source.hpp"
 #include "import/stored_sources.hpp"
 #include "import/vectors/line_collection.hpp"
+#include "pyramid/points/sorted_points.hpp"
 #include "pyramid/pyramid.hpp"
-#include "pyramid/sorted_points.hpp"
 #include "store/set_aside.hpp"
 #include "store/store_writer.hpp"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "pyramid/pyramid.hpp"
-#include "store/point_index.hpp"
+#include "store/codec/point_index.hpp"
 #include "store/set_aside.hpp"
 #include "store/store_file.hpp"
 

@@ -24,8 +24,8 @@
 #include <itin/lattice_tin.hpp>
 
 #include "lattice/lattice_frame.hpp"
-#include "store/point_index.hpp"
-#include "triangulate/grid_window.hpp"
+#include "store/codec/point_index.hpp"
+#include "triangulate/region/grid_window.hpp"
 
 namespace itin {
 

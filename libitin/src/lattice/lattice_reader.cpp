@@ -16,10 +16,10 @@
 #include "lattice/lattice_cover.hpp"
 #include "lattice/post_sheet.hpp"
 #include "store/prevailing_lattice.hpp"
-#include "triangulate/grid_window.hpp"
+#include "triangulate/apex/selection.hpp"
 #include "triangulate/raised_index.hpp"
-#include "triangulate/selection.hpp"
-#include "triangulate/window_leaves.hpp"
+#include "triangulate/region/grid_window.hpp"
+#include "triangulate/region/window_leaves.hpp"
 
 namespace itin {
 

@@ -11,7 +11,7 @@
 #include <itin/lattice_tin.hpp>
 
 #include "lattice/lattice_frame.hpp"
-#include "store/point_index.hpp"
+#include "store/codec/point_index.hpp"
 
 namespace itin {
 

@@ -7,8 +7,8 @@
 #include <itin/parallel.hpp>
 #include <itin/sort_unique.hpp>
 
-#include "features/flat_skeleton.hpp"
-#include "triangulate/region.hpp"
+#include "features/contours/flat_skeleton.hpp"
+#include "triangulate/region/region.hpp"
 
 namespace itin {
 

@@ -1,4 +1,4 @@
-// Repair of contours at import: points inferred in their flat triangles (features/flat_skeleton.hpp).
+// Repair of contours at import: points inferred in their flat triangles (features/contours/flat_skeleton.hpp).
 #pragma once
 
 #include <cstdint>
@@ -6,8 +6,8 @@
 
 #include <itin/progress.hpp>
 
-#include "features/flat_triangles.hpp"
-#include "pyramid/working_index.hpp"
+#include "features/contours/flat_triangles.hpp"
+#include "pyramid/points/working_index.hpp"
 
 namespace itin {
 

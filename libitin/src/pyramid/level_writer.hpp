@@ -12,9 +12,9 @@
 
 #include <itin/geometry.hpp>
 
-#include "pyramid/certify.hpp"
-#include "pyramid/working_index.hpp"
-#include "store/leaf_cutter.hpp"
+#include "pyramid/levels/certify.hpp"
+#include "pyramid/points/working_index.hpp"
+#include "store/file/leaf_cutter.hpp"
 #include "store/store_writer.hpp"
 
 namespace itin {

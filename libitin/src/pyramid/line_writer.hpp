@@ -10,8 +10,8 @@
 
 #include "pyramid/pyramid.hpp"
 #include "pyramid/theme_lines.hpp"
-#include "store/point_index.hpp"
-#include "store/segment_features.hpp"
+#include "store/codec/point_index.hpp"
+#include "store/segments/segment_features.hpp"
 #include "store/store_writer.hpp"
 
 namespace itin {

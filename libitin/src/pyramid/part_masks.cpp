@@ -7,8 +7,8 @@
 #include <itin/parallel.hpp>
 #include <itin/sort_unique.hpp>
 
-#include "features/mask_index.hpp"
-#include "store/store_format.hpp"
+#include "features/plan/mask_index.hpp"
+#include "store/codec/store_format.hpp"
 
 namespace itin {
 

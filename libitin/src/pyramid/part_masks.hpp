@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "pyramid/theme_lines.hpp"
-#include "store/point_index.hpp"
+#include "store/codec/point_index.hpp"
 #include "store/store_writer.hpp"
 
 namespace itin {

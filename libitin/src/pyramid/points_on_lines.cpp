@@ -7,9 +7,9 @@
 
 #include <itin/sort_unique.hpp>
 
-#include "features/hot_pixel.hpp"
+#include "features/plan/hot_pixel.hpp"
 #include "geometry/cell.hpp"
-#include "store/edge_quadtree.hpp"
+#include "store/segments/edge_quadtree.hpp"
 
 namespace itin {
 

@@ -10,8 +10,8 @@
 
 #include <itin/progress.hpp>
 
-#include "features/planar.hpp"
-#include "pyramid/sorted_points.hpp"
+#include "features/plan/planar.hpp"
+#include "pyramid/points/sorted_points.hpp"
 
 namespace itin {
 

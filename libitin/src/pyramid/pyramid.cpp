@@ -11,18 +11,18 @@
 #include <itin/parallel.hpp>
 #include <itin/sort_unique.hpp>
 
-#include "features/line_hierarchy.hpp"
-#include "pyramid/certify.hpp"
+#include "features/contours/line_hierarchy.hpp"
 #include "pyramid/contour_repair.hpp"
-#include "pyramid/coverage.hpp"
+#include "pyramid/coverage/coverage.hpp"
 #include "pyramid/level_writer.hpp"
+#include "pyramid/levels/certify.hpp"
+#include "pyramid/levels/post_hierarchy.hpp"
+#include "pyramid/levels/proposal.hpp"
 #include "pyramid/line_writer.hpp"
-#include "pyramid/post_hierarchy.hpp"
-#include "pyramid/proposal.hpp"
+#include "pyramid/points/working_index.hpp"
 #include "pyramid/replacement.hpp"
 #include "pyramid/set_points_aside.hpp"
-#include "pyramid/working_index.hpp"
-#include "store/lateral_tolerance.hpp"
+#include "store/segments/lateral_tolerance.hpp"
 
 namespace itin {
 

@@ -7,7 +7,7 @@
 #include <itin/progress.hpp>
 #include <itin/store.hpp>
 
-#include "pyramid/sorted_points.hpp"
+#include "pyramid/points/sorted_points.hpp"
 #include "pyramid/theme_lines.hpp"
 #include "store/store_writer.hpp"
 
@@ -33,7 +33,7 @@ struct PyramidReport {
   std::vector<std::uint64_t> line_vertices;  ///< by theme and then by part
   std::vector<Segment> placed;               ///< lines on the ground, as segments of the full surface
   std::vector<SegmentFeature> of_features;   ///< the features that the placed segments belong to
-  std::uint64_t flat_before = 0;             ///< flat triangles of contours (features/flat_triangles.hpp)
+  std::uint64_t flat_before = 0;             ///< flat triangles of contours (features/contours/flat_triangles.hpp)
   std::uint64_t flat_after = 0;              ///< flat triangles that the repair did not mend
 };
 

@@ -6,7 +6,7 @@
 
 #include <itin/parallel.hpp>
 
-#include "pyramid/grounded.hpp"
+#include "pyramid/coverage/grounded.hpp"
 #include "pyramid/pyramid.hpp"
 
 namespace itin {

@@ -8,7 +8,7 @@
 #include <itin/progress.hpp>
 #include <itin/store.hpp>
 
-#include "pyramid/working_index.hpp"
+#include "pyramid/points/working_index.hpp"
 
 namespace itin {
 

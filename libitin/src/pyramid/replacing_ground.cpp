@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "pyramid/coverage.hpp"
-#include "pyramid/proposal.hpp"
-#include "pyramid/working_index.hpp"
+#include "pyramid/coverage/coverage.hpp"
+#include "pyramid/levels/proposal.hpp"
+#include "pyramid/points/working_index.hpp"
 #include "store/store_writer.hpp"
 
 namespace itin {

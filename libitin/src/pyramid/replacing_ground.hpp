@@ -7,8 +7,8 @@
 #include <itin/progress.hpp>
 #include <itin/store.hpp>
 
-#include "features/polygon_sides.hpp"
-#include "pyramid/sorted_points.hpp"
+#include "features/plan/polygon_sides.hpp"
+#include "pyramid/points/sorted_points.hpp"
 
 namespace itin {
 

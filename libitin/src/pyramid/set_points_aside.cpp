@@ -4,8 +4,8 @@
 #include <functional>
 #include <span>
 
-#include "pyramid/working_index.hpp"
-#include "store/leaf_cutter.hpp"
+#include "pyramid/points/working_index.hpp"
+#include "store/file/leaf_cutter.hpp"
 
 namespace itin {
 

@@ -6,7 +6,7 @@
 #include <itin/progress.hpp>
 #include <itin/store.hpp>
 
-#include "pyramid/sorted_points.hpp"
+#include "pyramid/points/sorted_points.hpp"
 #include "store/store_writer.hpp"
 
 namespace itin {

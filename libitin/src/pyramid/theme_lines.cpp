@@ -10,13 +10,13 @@
 #include <itin/parallel.hpp>
 #include <itin/sort_unique.hpp>
 
-#include "features/hot_pixel.hpp"
+#include "features/plan/hot_pixel.hpp"
 #include "geometry/cell_about.hpp"
-#include "pyramid/grounded.hpp"
-#include "pyramid/points_in_triangles.hpp"
-#include "store/edge_quadtree.hpp"
+#include "pyramid/coverage/grounded.hpp"
+#include "pyramid/difference/points_in_triangles.hpp"
 #include "store/points_of_leaves.hpp"
-#include "triangulate/region.hpp"
+#include "store/segments/edge_quadtree.hpp"
+#include "triangulate/region/region.hpp"
 
 namespace itin {
 

@@ -8,12 +8,12 @@
 #include <itin/progress.hpp>
 #include <itin/theme.hpp>
 
-#include "features/ground_border.hpp"
+#include "features/mesh/ground_border.hpp"
 #include "features/part_vertices.hpp"
-#include "features/planar.hpp"
+#include "features/plan/planar.hpp"
 #include "features/raised_theme.hpp"
-#include "pyramid/source_index.hpp"
-#include "pyramid/working_index.hpp"
+#include "pyramid/points/source_index.hpp"
+#include "pyramid/points/working_index.hpp"
 
 namespace itin {
 

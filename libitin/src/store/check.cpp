@@ -11,9 +11,9 @@
 #include <itin/store.hpp>
 
 #include "store/cluster_check.hpp"
+#include "store/codec/store_format.hpp"
 #include "store/set_aside.hpp"
 #include "store/store_file.hpp"
-#include "store/store_format.hpp"
 
 namespace itin {
 

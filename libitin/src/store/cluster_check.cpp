@@ -4,7 +4,7 @@
 #include <array>
 #include <map>
 
-#include "store/store_format.hpp"
+#include "store/codec/store_format.hpp"
 
 namespace itin {
 

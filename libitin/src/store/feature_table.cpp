@@ -3,9 +3,9 @@
 #include <bit>
 #include <iterator>
 
-#include "store/content_stream.hpp"
+#include "store/codec/zstd_frame.hpp"
+#include "store/segments/content_stream.hpp"
 #include "store/store_file.hpp"
-#include "store/zstd_frame.hpp"
 
 namespace itin {
 

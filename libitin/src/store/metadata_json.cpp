@@ -7,8 +7,8 @@
 
 #include <itin/error.hpp>
 
-#include "store/byte_stream.hpp"
-#include "store/store_format.hpp"
+#include "store/codec/byte_stream.hpp"
+#include "store/codec/store_format.hpp"
 
 namespace itin {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "geometry/cell.hpp"
-#include "store/point_index.hpp"
+#include "store/codec/point_index.hpp"
 
 namespace itin {
 

@@ -6,7 +6,7 @@
 #include <span>
 
 #include "geometry/post_lattice.hpp"
-#include "store/point_index.hpp"
+#include "store/codec/point_index.hpp"
 
 namespace itin {
 

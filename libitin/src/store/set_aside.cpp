@@ -5,10 +5,10 @@
 #include <limits>
 #include <utility>
 
-#include "store/block_codec.hpp"
-#include "store/byte_stream.hpp"
-#include "store/store_format.hpp"
-#include "store/zstd_frame.hpp"
+#include "store/codec/block_codec.hpp"
+#include "store/codec/byte_stream.hpp"
+#include "store/codec/store_format.hpp"
+#include "store/codec/zstd_frame.hpp"
 
 namespace itin {
 

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "geometry/cell.hpp"
-#include "store/point_index.hpp"
-#include "store/segment_features.hpp"
-#include "store/store_rows.hpp"
+#include "store/codec/point_index.hpp"
+#include "store/file/store_rows.hpp"
+#include "store/segments/segment_features.hpp"
 
 namespace itin {
 

@@ -2,8 +2,8 @@
 
 #include <itin/sources_in.hpp>
 
-#include "store/point_index.hpp"
-#include "store/store_format.hpp"
+#include "store/codec/point_index.hpp"
+#include "store/codec/store_format.hpp"
 
 namespace itin {
 

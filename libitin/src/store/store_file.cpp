@@ -5,13 +5,13 @@
 
 #include <itin/error.hpp>
 
-#include "store/block_codec.hpp"
-#include "store/block_preface.hpp"
-#include "store/byte_stream.hpp"
-#include "store/edge_quadtree.hpp"
-#include "store/line_codec.hpp"
+#include "store/codec/block_codec.hpp"
+#include "store/codec/byte_stream.hpp"
+#include "store/codec/store_format.hpp"
 #include "store/metadata_json.hpp"
-#include "store/store_format.hpp"
+#include "store/segments/block_preface.hpp"
+#include "store/segments/edge_quadtree.hpp"
+#include "store/segments/line_codec.hpp"
 
 namespace itin {
 

@@ -11,15 +11,15 @@
 #include <itin/store.hpp>
 
 #include "geometry/morton_range.hpp"
-#include "store/block_cache.hpp"
-#include "store/block_codec.hpp"
-#include "store/clusters.hpp"
-#include "store/directory.hpp"
+#include "store/codec/block_codec.hpp"
+#include "store/codec/point_index.hpp"
 #include "store/feature_table.hpp"
-#include "store/footprint_codec.hpp"
-#include "store/point_index.hpp"
-#include "store/segment_features.hpp"
-#include "store/store_rows.hpp"
+#include "store/file/block_cache.hpp"
+#include "store/file/directory.hpp"
+#include "store/file/store_rows.hpp"
+#include "store/segments/clusters.hpp"
+#include "store/segments/footprint_codec.hpp"
+#include "store/segments/segment_features.hpp"
 
 namespace itin {
 

@@ -9,14 +9,14 @@
 
 #include "base/stoppable.hpp"
 #include "geometry/morton_range.hpp"
-#include "store/block_codec.hpp"
-#include "store/block_preface.hpp"
-#include "store/edge_quadtree.hpp"
-#include "store/lateral_tolerance.hpp"
-#include "store/leaf_cutter.hpp"
-#include "store/line_codec.hpp"
+#include "store/codec/block_codec.hpp"
+#include "store/codec/seal.hpp"
+#include "store/file/leaf_cutter.hpp"
 #include "store/metadata_json.hpp"
-#include "store/seal.hpp"
+#include "store/segments/block_preface.hpp"
+#include "store/segments/edge_quadtree.hpp"
+#include "store/segments/lateral_tolerance.hpp"
+#include "store/segments/line_codec.hpp"
 #include "store/store_file.hpp"
 
 namespace itin {

@@ -27,17 +27,17 @@
 #include <itin/progress.hpp>
 #include <itin/store.hpp>
 
-#include "store/clusters.hpp"
-#include "store/database.hpp"
-#include "store/directory.hpp"
-#include "store/encoded_leaf.hpp"
+#include "store/codec/encoded_leaf.hpp"
+#include "store/codec/point_index.hpp"
+#include "store/codec/store_format.hpp"
 #include "store/feature_table.hpp"
-#include "store/footprint_codec.hpp"
-#include "store/point_index.hpp"
-#include "store/replacement_file.hpp"
-#include "store/segment_features.hpp"
+#include "store/file/database.hpp"
+#include "store/file/directory.hpp"
+#include "store/file/replacement_file.hpp"
+#include "store/segments/clusters.hpp"
+#include "store/segments/footprint_codec.hpp"
+#include "store/segments/segment_features.hpp"
 #include "store/set_aside.hpp"
-#include "store/store_format.hpp"
 
 namespace itin {
 

@@ -7,7 +7,7 @@
 #include <itin/tin.hpp>
 
 #include "geometry/cell.hpp"
-#include "triangulate/region.hpp"
+#include "triangulate/region/region.hpp"
 
 namespace itin {
 

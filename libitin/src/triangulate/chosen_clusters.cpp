@@ -1,6 +1,6 @@
 #include "triangulate/chosen_clusters.hpp"
 
-#include "store/store_format.hpp"
+#include "store/codec/store_format.hpp"
 
 namespace itin {
 

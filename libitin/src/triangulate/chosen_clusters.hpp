@@ -11,10 +11,10 @@
 
 #include <itin/store.hpp>
 
-#include "store/block_cache.hpp"
-#include "store/clusters.hpp"
+#include "store/file/block_cache.hpp"
+#include "store/segments/clusters.hpp"
 #include "store/store_file.hpp"
-#include "triangulate/selection.hpp"
+#include "triangulate/apex/selection.hpp"
 
 namespace itin {
 

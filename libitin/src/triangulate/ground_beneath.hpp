@@ -21,9 +21,9 @@
 
 #include "geometry/cell.hpp"
 #include "geometry/predicates.hpp"
-#include "store/point_index.hpp"
-#include "triangulate/box_index.hpp"
-#include "triangulate/selection.hpp"
+#include "store/codec/point_index.hpp"
+#include "triangulate/apex/selection.hpp"
+#include "triangulate/mesh/box_index.hpp"
 
 namespace itin {
 

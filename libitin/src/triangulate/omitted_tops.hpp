@@ -14,8 +14,8 @@
 #include <itin/store.hpp>
 #include <itin/tin.hpp>
 
+#include "triangulate/apex/selection.hpp"
 #include "triangulate/ground_beneath.hpp"
-#include "triangulate/selection.hpp"
 
 namespace itin {
 

@@ -15,7 +15,7 @@
 
 #include "geometry/cell.hpp"
 #include "geometry/predicates.hpp"
-#include "triangulate/box_index.hpp"
+#include "triangulate/mesh/box_index.hpp"
 
 namespace itin {
 

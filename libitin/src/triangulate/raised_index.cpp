@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <tuple>
 
-#include "store/store_format.hpp"
+#include "store/codec/store_format.hpp"
 #include "triangulate/omitted_tops.hpp"
 
 namespace itin {

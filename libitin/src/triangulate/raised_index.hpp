@@ -12,11 +12,11 @@
 
 #include <itin/store.hpp>
 
-#include "store/block_cache.hpp"
-#include "store/point_index.hpp"
+#include "store/codec/point_index.hpp"
+#include "store/file/block_cache.hpp"
+#include "triangulate/apex/selection.hpp"
 #include "triangulate/chosen_clusters.hpp"
 #include "triangulate/ground_beneath.hpp"
-#include "triangulate/selection.hpp"
 
 namespace itin {
 

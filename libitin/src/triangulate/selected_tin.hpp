@@ -6,7 +6,7 @@
 #include <itin/tin.hpp>
 #include <itin/window.hpp>
 
-#include "triangulate/selection.hpp"
+#include "triangulate/apex/selection.hpp"
 
 namespace itin {
 

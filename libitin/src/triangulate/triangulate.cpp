@@ -12,9 +12,9 @@
 #include "base/stoppable.hpp"
 #include "triangulate/assembly.hpp"
 #include "triangulate/raised_index.hpp"
-#include "triangulate/region.hpp"
+#include "triangulate/region/region.hpp"
+#include "triangulate/region/window_leaves.hpp"
 #include "triangulate/selected_tin.hpp"
-#include "triangulate/window_leaves.hpp"
 
 namespace itin {
 

@@ -10,8 +10,8 @@
 #include <itin/box_of.hpp>
 #include <itin/grid_units.hpp>
 
-#include "pyramid/overlay.hpp"
-#include "store/store_format.hpp"
+#include "pyramid/difference/overlay.hpp"
+#include "store/codec/store_format.hpp"
 #include "verify/leaf_cover.hpp"
 
 namespace itin {

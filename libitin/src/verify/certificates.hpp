@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "store/store_file.hpp"
-#include "triangulate/selection.hpp"
+#include "triangulate/apex/selection.hpp"
 #include "verify/false_cell.hpp"
 
 namespace itin {

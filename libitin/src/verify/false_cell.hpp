@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "store/point_index.hpp"
+#include "store/codec/point_index.hpp"
 #include "verify/height_difference.hpp"
 
 namespace itin {

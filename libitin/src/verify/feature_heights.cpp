@@ -7,7 +7,7 @@
 
 #include <itin/grid_units.hpp>
 
-#include "store/store_format.hpp"
+#include "store/codec/store_format.hpp"
 #include "verify/leaf_cover.hpp"
 #include "verify/merged_leaves.hpp"
 #include "verify/tiling.hpp"

@@ -3,9 +3,9 @@
 //   const HeightDifference difference(low_mesh);
 //   difference.add(high_mesh, t, box, extremes);     // triangle t, over as much of it as lies in the box
 //
-// This is slow and plain; pyramid/overlay.hpp finds the same along edges in one walk, and for whole triangles. Neither
-// surface has to have the other's vertices. It computes in extended precision, about a corner of the triangle: right to
-// some 1e-5 grid units even where the surfaces are as steep as the grid allows.
+// This is slow and plain; pyramid/difference/overlay.hpp finds the same along edges in one walk, and for whole
+// triangles. Neither surface has to have the other's vertices. It computes in extended precision, about a corner of the
+// triangle: right to some 1e-5 grid units even where the surfaces are as steep as the grid allows.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@
 
 #include <itin/bucket_lists.hpp>
 
-#include "triangulate/region.hpp"
+#include "triangulate/region/region.hpp"
 
 namespace itin {
 

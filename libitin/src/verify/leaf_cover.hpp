@@ -9,8 +9,8 @@
 #include <itin/box_of.hpp>
 
 #include "geometry/cell_about.hpp"
-#include "store/point_index.hpp"
-#include "triangulate/region.hpp"
+#include "store/codec/point_index.hpp"
+#include "triangulate/region/region.hpp"
 
 namespace itin {
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "store/point_index.hpp"
+#include "store/codec/point_index.hpp"
 
 namespace itin {
 

@@ -13,7 +13,7 @@
 #include "support/section_text.hpp"
 #include "support/seed.hpp"
 #include "support/slow_section.hpp"
-#include "triangulate/region.hpp"
+#include "triangulate/region/region.hpp"
 
 namespace itin {
 namespace {

@@ -10,7 +10,7 @@
 #include "cross_section/shared_cells.hpp"
 #include "support/covered_index.hpp"
 #include "support/seed.hpp"
-#include "triangulate/region.hpp"
+#include "triangulate/region/region.hpp"
 
 namespace itin {
 namespace {

@@ -1,4 +1,4 @@
-#include "triangulate/selection.hpp"
+#include "triangulate/apex/selection.hpp"
 
 #include <cstdlib>
 #include <limits>

@@ -1,10 +1,10 @@
 // What is said of a file that GDAL cannot write: the reason, without the insides of other libraries.
-#include "gdal/write_failure.hpp"
+#include "gdal/files/write_failure.hpp"
 
 #include <cpl_error.h>
 #include <gtest/gtest.h>
 
-#include "gdal/quiet_gdal.hpp"
+#include "gdal/files/quiet_gdal.hpp"
 
 namespace itin {
 namespace {

@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
-#include "features/plan_overlay.hpp"
-#include "store/footprint_codec.hpp"
+#include "features/plan/plan_overlay.hpp"
+#include "store/segments/footprint_codec.hpp"
 #include "support/seed.hpp"
 
 namespace itin {

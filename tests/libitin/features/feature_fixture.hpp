@@ -10,8 +10,8 @@
 
 #include <gtest/gtest.h>
 
-#include "features/feature_mesh.hpp"
-#include "features/hot_pixel.hpp"
+#include "features/mesh/feature_mesh.hpp"
+#include "features/plan/hot_pixel.hpp"
 #include "support/terrain_tin.hpp"
 
 namespace itin::test {

@@ -1,5 +1,5 @@
 // Walls, feet and who gets the ground: by hand, and over random polygons against brute force.
-#include "features/feature_mesh.hpp"
+#include "features/mesh/feature_mesh.hpp"
 
 #include <numbers>
 
@@ -10,7 +10,7 @@
 
 #include "libitin/features/feature_fixture.hpp"
 #include "support/seed.hpp"
-#include "triangulate/delaunay.hpp"
+#include "triangulate/mesh/delaunay.hpp"
 
 namespace itin {
 namespace {

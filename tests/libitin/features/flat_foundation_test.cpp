@@ -13,7 +13,7 @@
 #include <itin/store.hpp>
 #include <itin/triangulate.hpp>
 
-#include "features/terrain_heights.hpp"
+#include "features/mesh/terrain_heights.hpp"
 #include "support/corner_triangles.hpp"
 #include "support/raster_file.hpp"
 #include "support/seed.hpp"

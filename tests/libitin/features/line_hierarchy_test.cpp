@@ -1,5 +1,5 @@
 // Simplified lines never cross, whatever levels meet; checked for all pairs.
-#include "features/line_hierarchy.hpp"
+#include "features/contours/line_hierarchy.hpp"
 
 #include <iostream>
 #include <map>
@@ -8,10 +8,10 @@
 
 #include <gtest/gtest.h>
 
-#include "features/hot_pixel.hpp"
-#include "features/planar.hpp"
+#include "features/plan/hot_pixel.hpp"
+#include "features/plan/planar.hpp"
 #include "support/seed.hpp"
-#include "triangulate/apex.hpp"
+#include "triangulate/apex/apex.hpp"
 
 namespace itin {
 namespace {

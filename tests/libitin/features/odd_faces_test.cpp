@@ -1,6 +1,6 @@
 // The area that self-crossing rings enclose, against the number of their edges on the way to the outside; and how many
 // crossings are taken apart.
-#include "features/odd_faces.hpp"
+#include "features/plan/odd_faces.hpp"
 
 #include <atomic>
 #include <cmath>
@@ -9,9 +9,9 @@
 
 #include <gtest/gtest.h>
 
-#include "features/entangled.hpp"
-#include "features/hot_pixel.hpp"
-#include "features/planarity.hpp"
+#include "features/mesh/entangled.hpp"
+#include "features/plan/hot_pixel.hpp"
+#include "features/plan/planarity.hpp"
 #include "libitin/features/feature_fixture.hpp"
 #include "support/impatient.hpp"
 #include "support/seed.hpp"

@@ -1,5 +1,5 @@
 // Planarity against brute force: all pairs, all vertices.
-#include "features/planar.hpp"
+#include "features/plan/planar.hpp"
 
 #include <deque>
 #include <iostream>
@@ -9,9 +9,9 @@
 
 #include <gtest/gtest.h>
 
-#include "features/hot_pixel.hpp"
+#include "features/plan/hot_pixel.hpp"
 #include "support/seed.hpp"
-#include "triangulate/apex.hpp"
+#include "triangulate/apex/apex.hpp"
 
 namespace itin {
 namespace {

@@ -1,12 +1,12 @@
 // Sides of positions by a grid of cells, against the exact walk along all edges.
-#include "features/polygon_sides.hpp"
+#include "features/plan/polygon_sides.hpp"
 
 #include <cmath>
 #include <random>
 
 #include <gtest/gtest.h>
 
-#include "features/mask_index.hpp"
+#include "features/plan/mask_index.hpp"
 #include "support/seed.hpp"
 
 namespace itin {

@@ -20,12 +20,12 @@
 #include <itin/store.hpp>
 #include <itin/triangulate.hpp>
 
-#include "features/terrain_heights.hpp"
+#include "features/mesh/terrain_heights.hpp"
 #include "libitin/features/surface_comparison.hpp"
-#include "store/clusters.hpp"
-#include "store/point_index.hpp"
+#include "store/codec/point_index.hpp"
+#include "store/codec/store_format.hpp"
+#include "store/segments/clusters.hpp"
 #include "store/store_file.hpp"
-#include "store/store_format.hpp"
 #include "support/corner_triangles.hpp"
 #include "support/raster_file.hpp"
 #include "support/rolling_ground.hpp"
@@ -33,8 +33,8 @@
 #include "support/sound_store.hpp"
 #include "support/temporary_directory.hpp"
 #include "support/vector_file.hpp"
-#include "triangulate/delaunay.hpp"
-#include "triangulate/selection.hpp"
+#include "triangulate/apex/selection.hpp"
+#include "triangulate/mesh/delaunay.hpp"
 
 namespace itin {
 namespace {

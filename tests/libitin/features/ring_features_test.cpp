@@ -16,7 +16,7 @@
 #include <itin/store.hpp>
 #include <itin/triangulate.hpp>
 
-#include "features/terrain_heights.hpp"
+#include "features/mesh/terrain_heights.hpp"
 #include "support/alexandria.hpp"
 #include "support/corner_triangles.hpp"
 #include "support/houses.hpp"

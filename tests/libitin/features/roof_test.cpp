@@ -1,5 +1,5 @@
 // Roofs against their definitions.
-#include "features/roof.hpp"
+#include "features/mesh/roof.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "features/terrain_heights.hpp"
+#include "features/mesh/terrain_heights.hpp"
 
 namespace itin::test {
 

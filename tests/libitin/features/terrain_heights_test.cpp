@@ -1,5 +1,5 @@
 // Heights under features against brute force over all triangles, and what drapes against the terrain itself.
-#include "features/terrain_heights.hpp"
+#include "features/mesh/terrain_heights.hpp"
 
 #include <cmath>
 
@@ -8,7 +8,7 @@
 #include "libitin/features/feature_fixture.hpp"
 #include "support/delaunay_tin.hpp"
 #include "support/seed.hpp"
-#include "triangulate/delaunay.hpp"
+#include "triangulate/mesh/delaunay.hpp"
 
 namespace itin {
 namespace {

@@ -1,12 +1,12 @@
 // The union of a feature's parts, against the parts that hold a place.
-#include "features/united_parts.hpp"
+#include "features/mesh/united_parts.hpp"
 
 #include <algorithm>
 #include <random>
 
 #include <gtest/gtest.h>
 
-#include "features/plan_on_grid.hpp"
+#include "features/plan/plan_on_grid.hpp"
 #include "libitin/features/feature_fixture.hpp"
 #include "support/seed.hpp"
 

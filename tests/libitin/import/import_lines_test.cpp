@@ -17,8 +17,8 @@
 #include <itin/store.hpp>
 #include <itin/triangulate.hpp>
 
-#include "features/hot_pixel.hpp"
-#include "store/point_index.hpp"
+#include "features/plan/hot_pixel.hpp"
+#include "store/codec/point_index.hpp"
 #include "support/corner_triangles.hpp"
 #include "support/raster_file.hpp"
 #include "support/real_terrain.hpp"
@@ -26,8 +26,8 @@
 #include "support/sound_store.hpp"
 #include "support/temporary_directory.hpp"
 #include "support/vector_file.hpp"
-#include "triangulate/delaunay.hpp"
-#include "triangulate/selection.hpp"
+#include "triangulate/apex/selection.hpp"
+#include "triangulate/mesh/delaunay.hpp"
 
 namespace itin {
 namespace {

@@ -19,7 +19,7 @@
 #include <itin/store.hpp>
 #include <itin/triangulate.hpp>
 
-#include "store/point_index.hpp"
+#include "store/codec/point_index.hpp"
 #include "support/raster_file.hpp"
 #include "support/seed.hpp"
 #include "support/temporary_directory.hpp"

@@ -1,5 +1,5 @@
 // What imports keep of features besides geometry, and what they refuse or pass over.
-#include "import/source/kept_features.hpp"
+#include "import/source/layers/kept_features.hpp"
 
 #include <gmock/gmock.h>
 

@@ -15,8 +15,8 @@
 #include <itin/triangulate.hpp>
 
 #include "geometry/cell.hpp"
+#include "pyramid/points/sorted_points.hpp"
 #include "pyramid/replacing_ground.hpp"
-#include "pyramid/sorted_points.hpp"
 #include "support/raster_file.hpp"
 #include "support/seed.hpp"
 #include "support/temporary_directory.hpp"

@@ -1,5 +1,5 @@
 // PointSorter against std::stable_sort and a plain reading of its rule for duplicates.
-#include "pyramid/sorted_points.hpp"
+#include "pyramid/points/sorted_points.hpp"
 
 #include <algorithm>
 #include <csignal>

@@ -1,5 +1,5 @@
 // What lines change that were put back, against both triangulations of everything.
-#include "pyramid/changed_by_lines.hpp"
+#include "pyramid/levels/changed_by_lines.hpp"
 
 #include <cmath>
 #include <set>
@@ -8,10 +8,10 @@
 
 #include <itin/box_of.hpp>
 
-#include "features/line_hierarchy.hpp"
+#include "features/contours/line_hierarchy.hpp"
 #include "support/points.hpp"
 #include "support/seed.hpp"
-#include "triangulate/region.hpp"
+#include "triangulate/region/region.hpp"
 
 namespace itin {
 namespace {

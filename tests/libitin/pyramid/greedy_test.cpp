@@ -1,6 +1,6 @@
 // Every level that greedy insertion proposes keeps to its tolerance, and a lattice's levels and ground are those that
 // are found triangle by triangle, or as good.
-#include "pyramid/greedy.hpp"
+#include "pyramid/greedy/greedy.hpp"
 
 #include <algorithm>
 #include <array>
@@ -15,9 +15,9 @@
 
 #include <itin/detail.hpp>
 
-#include "pyramid/coverage.hpp"
-#include "pyramid/ground_edges.hpp"
-#include "pyramid/overlay.hpp"
+#include "pyramid/coverage/coverage.hpp"
+#include "pyramid/coverage/ground_edges.hpp"
+#include "pyramid/difference/overlay.hpp"
 #include "support/covered_index.hpp"
 #include "support/points.hpp"
 #include "support/raster_file.hpp"

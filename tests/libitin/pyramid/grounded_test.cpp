@@ -1,5 +1,5 @@
 // Which positions are on the ground of some sources, against the triangulation of all their points at once.
-#include "pyramid/grounded.hpp"
+#include "pyramid/coverage/grounded.hpp"
 
 #include <cmath>
 #include <set>
@@ -8,7 +8,7 @@
 
 #include "support/points.hpp"
 #include "support/seed.hpp"
-#include "triangulate/delaunay.hpp"
+#include "triangulate/mesh/delaunay.hpp"
 
 namespace itin {
 namespace {

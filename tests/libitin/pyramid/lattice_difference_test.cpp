@@ -1,5 +1,5 @@
 // What is told of a lattice's posts is what its triangles say.
-#include "pyramid/lattice_difference.hpp"
+#include "pyramid/difference/lattice_difference.hpp"
 
 #include <algorithm>
 #include <array>
@@ -13,10 +13,10 @@
 
 #include <itin/detail.hpp>
 
-#include "pyramid/working_index.hpp"
+#include "pyramid/points/working_index.hpp"
 #include "support/raster_file.hpp"
 #include "support/seed.hpp"
-#include "triangulate/selection.hpp"
+#include "triangulate/apex/selection.hpp"
 
 namespace itin {
 namespace {

@@ -1,6 +1,6 @@
 // Fine levels of rasters are those that the hierarchy's definition gives, whatever the tiles, and depend on the heights
 // near by alone.
-#include "pyramid/post_hierarchy.hpp"
+#include "pyramid/levels/post_hierarchy.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,8 +10,8 @@
 
 #include <gtest/gtest.h>
 
-#include "pyramid/cell_verification.hpp"
-#include "pyramid/fine_bounds.hpp"
+#include "pyramid/levels/cell_verification.hpp"
+#include "pyramid/levels/fine_bounds.hpp"
 #include "support/post_ground.hpp"
 #include "support/seed.hpp"
 

@@ -1,6 +1,6 @@
 // Proposed levels are those that the tiles of each wave choose as if the wave had none yet, and follow from heights
 // near by.
-#include "pyramid/proposal.hpp"
+#include "pyramid/levels/proposal.hpp"
 
 #include <algorithm>
 #include <map>
@@ -10,8 +10,8 @@
 
 #include <gtest/gtest.h>
 
-#include "pyramid/coverage.hpp"
-#include "pyramid/greedy.hpp"
+#include "pyramid/coverage/coverage.hpp"
+#include "pyramid/greedy/greedy.hpp"
 #include "support/post_ground.hpp"
 #include "support/seed.hpp"
 

@@ -1,11 +1,11 @@
 // Levels that were triangulated as a whole, against triangulate_region() box by box.
-#include "pyramid/whole_levels.hpp"
+#include "pyramid/levels/whole_levels.hpp"
 
 #include <random>
 
 #include <gtest/gtest.h>
 
-#include "pyramid/cell_verification.hpp"
+#include "pyramid/levels/cell_verification.hpp"
 #include "support/seed.hpp"
 #include "support/temporary_directory.hpp"
 

@@ -1,6 +1,6 @@
 // What a leaf's coarse points are follows all changes of levels. The cells that levels are chosen and mended in are the
 // largest that are not too full.
-#include "pyramid/working_index.hpp"
+#include "pyramid/points/working_index.hpp"
 
 #include <algorithm>
 #include <array>

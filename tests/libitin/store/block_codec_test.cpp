@@ -1,4 +1,4 @@
-#include "store/block_codec.hpp"
+#include "store/codec/block_codec.hpp"
 
 #include <limits>
 #include <map>
@@ -8,7 +8,7 @@
 #include <rapidcheck/gtest.h>
 
 #include "libitin/store/random_points.hpp"
-#include "store/byte_stream.hpp"
+#include "store/codec/byte_stream.hpp"
 #include "store/store_writer.hpp"
 #include "support/seed.hpp"
 

@@ -1,5 +1,5 @@
 // Clusters of touching features in the blocks of a part: what is written is read, and damage is found.
-#include "store/clusters.hpp"
+#include "store/segments/clusters.hpp"
 
 #include <algorithm>
 #include <array>
@@ -16,8 +16,8 @@
 #include <itin/store.hpp>
 
 #include "libitin/store/random_points.hpp"
-#include "store/block_preface.hpp"
-#include "store/line_codec.hpp"
+#include "store/segments/block_preface.hpp"
+#include "store/segments/line_codec.hpp"
 #include "store/store_file.hpp"
 #include "store/store_writer.hpp"
 #include "support/forged_rows.hpp"

@@ -1,4 +1,4 @@
-#include "store/edge_quadtree.hpp"
+#include "store/segments/edge_quadtree.hpp"
 
 #include <algorithm>
 #include <random>
@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "libitin/store/random_points.hpp"
-#include "store/byte_stream.hpp"
+#include "store/codec/byte_stream.hpp"
 #include "support/seed.hpp"
 
 namespace itin {

@@ -10,7 +10,7 @@
 
 #include "libitin/store/random_points.hpp"
 #include "store/feature_table.hpp"
-#include "store/segment_features.hpp"
+#include "store/segments/segment_features.hpp"
 #include "store/set_aside.hpp"
 #include "store/store_file.hpp"
 #include "store/store_writer.hpp"

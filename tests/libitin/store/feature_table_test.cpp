@@ -7,10 +7,10 @@
 
 #include <gtest/gtest.h>
 
-#include "store/block_preface.hpp"
-#include "store/byte_stream.hpp"
-#include "store/segment_features.hpp"
-#include "store/zstd_frame.hpp"
+#include "store/codec/byte_stream.hpp"
+#include "store/codec/zstd_frame.hpp"
+#include "store/segments/block_preface.hpp"
+#include "store/segments/segment_features.hpp"
 #include "support/seed.hpp"
 
 namespace itin {

@@ -1,4 +1,4 @@
-#include "store/height_predictor.hpp"
+#include "store/codec/height_predictor.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "store/lattice_heights.hpp"
+#include "store/codec/lattice_heights.hpp"
 
 #include <limits>
 #include <random>

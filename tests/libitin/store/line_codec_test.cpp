@@ -1,4 +1,4 @@
-#include "store/line_codec.hpp"
+#include "store/segments/line_codec.hpp"
 
 #include <algorithm>
 #include <random>
@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "libitin/store/random_points.hpp"
-#include "store/byte_stream.hpp"
-#include "store/edge_quadtree.hpp"
+#include "store/codec/byte_stream.hpp"
+#include "store/segments/edge_quadtree.hpp"
 #include "support/seed.hpp"
 
 namespace itin {

@@ -9,7 +9,7 @@
 #include <itin/geometry.hpp>
 
 #include "geometry/cell.hpp"
-#include "store/point_index.hpp"
+#include "store/codec/point_index.hpp"
 #include "support/temporary_directory.hpp"
 
 namespace itin {

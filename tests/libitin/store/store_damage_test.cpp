@@ -10,8 +10,8 @@
 #include <itin/store.hpp>
 
 #include "libitin/store/random_points.hpp"
-#include "store/point_index.hpp"
-#include "store/store_format.hpp"
+#include "store/codec/point_index.hpp"
+#include "store/codec/store_format.hpp"
 #include "support/forged_rows.hpp"
 #include "support/seed.hpp"
 

@@ -1,4 +1,4 @@
-#include "store/store_rows.hpp"
+#include "store/file/store_rows.hpp"
 
 #include <atomic>
 #include <cstdint>
@@ -15,7 +15,7 @@
 #include <itin/error.hpp>
 
 #include "libitin/store/random_points.hpp"
-#include "store/byte_stream.hpp"
+#include "store/codec/byte_stream.hpp"
 #include "support/row_bytes.hpp"
 #include "support/seed.hpp"
 #include "support/temporary_directory.hpp"

@@ -8,7 +8,7 @@
 #include <itin/store.hpp>
 
 #include "libitin/store/random_points.hpp"
-#include "store/point_index.hpp"
+#include "store/codec/point_index.hpp"
 #include "support/seed.hpp"
 
 namespace itin {

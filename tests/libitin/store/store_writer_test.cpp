@@ -16,7 +16,7 @@
 #include <itin/store.hpp>
 
 #include "libitin/store/random_points.hpp"
-#include "store/store_rows.hpp"
+#include "store/file/store_rows.hpp"
 
 namespace itin {
 namespace {

@@ -1,4 +1,4 @@
-#include "triangulate/growing_mesh.hpp"
+#include "triangulate/mesh/growing_mesh.hpp"
 
 #include <algorithm>
 #include <random>
@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "support/seed.hpp"
-#include "triangulate/delaunay.hpp"
+#include "triangulate/mesh/delaunay.hpp"
 
 namespace itin {
 namespace {

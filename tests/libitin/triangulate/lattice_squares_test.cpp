@@ -1,4 +1,4 @@
-#include "triangulate/lattice_squares.hpp"
+#include "triangulate/region/lattice_squares.hpp"
 
 #include <algorithm>
 #include <map>
@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "features/planar.hpp"
+#include "features/plan/planar.hpp"
 #include "support/adjacency.hpp"
 #include "support/seed.hpp"
 

@@ -1,5 +1,5 @@
 // Law 1: the window equals the whole.
-#include "triangulate/region.hpp"
+#include "triangulate/region/region.hpp"
 
 #include <map>
 #include <sstream>
@@ -9,8 +9,8 @@
 #include <itin/detail.hpp>
 #include <itin/window.hpp>
 
-#include "features/planar.hpp"
-#include "pyramid/coverage.hpp"
+#include "features/plan/planar.hpp"
+#include "pyramid/coverage/coverage.hpp"
 #include "support/points.hpp"
 #include "support/seed.hpp"
 

@@ -1,5 +1,5 @@
 // Right triangles on closed sets of posts, with the triangulation of the rest, are the triangulation of all positions.
-#include "triangulate/right_triangles.hpp"
+#include "triangulate/region/right_triangles.hpp"
 
 #include <algorithm>
 #include <functional>

@@ -1,4 +1,4 @@
-#include "triangulate/sight_fan.hpp"
+#include "triangulate/apex/sight_fan.hpp"
 
 #include <algorithm>
 #include <random>
@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "support/seed.hpp"
-#include "triangulate/apex.hpp"
+#include "triangulate/apex/apex.hpp"
 
 namespace itin {
 namespace {

@@ -1,5 +1,5 @@
 // GridWindow against a twin that knows no index: every edge, in 128-bit arithmetic.
-#include "triangulate/grid_window.hpp"
+#include "triangulate/region/grid_window.hpp"
 
 #include <cmath>
 #include <random>

@@ -8,7 +8,7 @@
 #include <viewshed/viewshed.hpp>
 
 #include "bounds/binned_heights.hpp"
-#include "modes/triangle_finders.hpp"
+#include "modes/lines/triangle_finders.hpp"
 #include "scene/kept_ground.hpp"
 
 namespace itin::viewshed {

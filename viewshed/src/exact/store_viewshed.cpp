@@ -7,7 +7,7 @@
 #include <viewshed/viewshed.hpp>
 
 #include "modes/feature_names.hpp"
-#include "modes/triangle_studies.hpp"
+#include "modes/lines/triangle_studies.hpp"
 #include "plan/effort.hpp"
 #include "plan/memory.hpp"
 #include "progress/stopwatch.hpp"

@@ -21,7 +21,7 @@
 #include <viewshed/surface.hpp>
 
 #include "horizon/panorama.hpp"
-#include "modes/first_blocker.hpp"
+#include "modes/lines/first_blocker.hpp"
 #include "plan/ground_runs.hpp"
 #include "plan/ground_tiles.hpp"
 #include "plan/memory.hpp"

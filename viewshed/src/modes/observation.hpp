@@ -19,7 +19,7 @@
 #include "line/cell_tiles.hpp"
 #include "line/verdicts.hpp"
 #include "modes/blocker_table.hpp"
-#include "modes/triangle_studies.hpp"
+#include "modes/lines/triangle_studies.hpp"
 #include "request/cells_in_view.hpp"
 #include "request/eye.hpp"
 #include "scene/exact_scene.hpp"

@@ -4,7 +4,7 @@
 
 #include <bitset>
 
-#include "modes/line_losses.hpp"
+#include "modes/lines/line_losses.hpp"
 #include "modes/observation.hpp"
 
 namespace itin::viewshed {

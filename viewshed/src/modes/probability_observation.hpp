@@ -3,8 +3,8 @@
 
 #include <optional>
 
+#include "modes/lines/visibility_probability.hpp"
 #include "modes/observation.hpp"
-#include "modes/visibility_probability.hpp"
 
 namespace itin::viewshed {
 

@@ -22,7 +22,7 @@
 
 #include "judge/clear_zone.hpp"
 #include "line/sight_lines.hpp"
-#include "modes/first_blocker.hpp"
+#include "modes/lines/first_blocker.hpp"
 #include "places/mount_places.hpp"
 #include "request/void_shadow.hpp"
 #include "scene/rays/scene.hpp"

@@ -10,8 +10,8 @@
 #include <utility>
 
 #include "base/disjoint_sets.hpp"
-#include "features/plan_on_grid.hpp"
-#include "features/prepare_feature.hpp"
+#include "features/mesh/prepare_feature.hpp"
+#include "features/plan/plan_on_grid.hpp"
 
 namespace itin {
 

@@ -10,7 +10,7 @@
 
 #include <itin/geometry.hpp>
 
-#include "store/footprint.hpp"
+#include "store/segments/footprint.hpp"
 
 namespace itin {
 

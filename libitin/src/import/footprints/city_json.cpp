@@ -14,9 +14,9 @@
 #include <itin/error.hpp>
 #include <itin/height_limit.hpp>
 
-#include "features/plan_overlay.hpp"
+#include "features/plan/plan_overlay.hpp"
 #include "gdal/crs.hpp"
-#include "gdal/quiet_gdal.hpp"
+#include "gdal/files/quiet_gdal.hpp"
 #include "import/footprints/city_faces.hpp"
 #include "import/footprints/city_geometry.hpp"
 #include "import/footprints/city_json_attributes.hpp"

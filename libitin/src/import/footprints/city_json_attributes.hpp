@@ -14,7 +14,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "import/source/kept_features.hpp"
+#include "import/source/layers/kept_features.hpp"
 
 namespace itin {
 

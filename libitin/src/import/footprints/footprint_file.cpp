@@ -14,7 +14,7 @@
 #include <itin/raster_values.hpp>
 #include <itin/sources_in.hpp>
 
-#include "gdal/source_path.hpp"
+#include "gdal/files/source_path.hpp"
 #include "import/footprints/city_json.hpp"
 #include "import/footprints/height_raster.hpp"
 #include "import/footprints/surface_heights.hpp"

@@ -14,15 +14,15 @@
 #include <itin/height_limit.hpp>
 
 #include "base/stoppable.hpp"
-#include "features/feature_mesh.hpp"
-#include "features/united_parts.hpp"
+#include "features/mesh/feature_mesh.hpp"
+#include "features/mesh/united_parts.hpp"
 #include "gdal/crs.hpp"
-#include "gdal/quiet_gdal.hpp"
+#include "gdal/files/quiet_gdal.hpp"
 #include "import/footprints/written_height.hpp"
 #include "import/source/crs_doubts.hpp"
 #include "import/source/findings.hpp"
+#include "import/source/layers/source_layer.hpp"
 #include "import/source/source_context.hpp"
-#include "import/source/source_layer.hpp"
 
 namespace itin {
 

@@ -14,9 +14,9 @@
 #include <itin/geometry.hpp>
 #include <itin/progress.hpp>
 
-#include "import/source/kept_features.hpp"
+#include "import/source/layers/kept_features.hpp"
 #include "import/source/vertical_datums.hpp"
-#include "store/footprint.hpp"
+#include "store/segments/footprint.hpp"
 
 namespace itin {
 

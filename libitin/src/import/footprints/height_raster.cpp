@@ -16,8 +16,8 @@
 
 #include "features/cell_patches.hpp"
 #include "gdal/crs.hpp"
-#include "gdal/quiet_gdal.hpp"
-#include "gdal/raster_file.hpp"
+#include "gdal/files/quiet_gdal.hpp"
+#include "gdal/files/raster_file.hpp"
 #include "import/rasters/raster_lattice.hpp"
 #include "import/rasters/raster_source.hpp"
 #include "import/rasters/raster_windows.hpp"

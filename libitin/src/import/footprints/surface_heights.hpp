@@ -13,7 +13,7 @@
 
 #include "import/footprints/footprint_reader.hpp"
 #include "import/source/vertical_datums.hpp"
-#include "store/footprint.hpp"
+#include "store/segments/footprint.hpp"
 
 namespace itin {
 

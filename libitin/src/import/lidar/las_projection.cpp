@@ -8,7 +8,7 @@
 #include <itin/error.hpp>
 
 #include "gdal/crs.hpp"
-#include "gdal/quiet_gdal.hpp"
+#include "gdal/files/quiet_gdal.hpp"
 
 namespace itin {
 

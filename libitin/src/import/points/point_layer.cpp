@@ -10,8 +10,8 @@
 
 #include <itin/error.hpp>
 
+#include "import/source/layers/source_layer.hpp"
 #include "import/source/middle_place.hpp"
-#include "import/source/source_layer.hpp"
 
 namespace itin {
 

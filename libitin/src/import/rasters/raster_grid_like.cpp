@@ -8,8 +8,8 @@
 #include <itin/raster.hpp>
 
 #include "gdal/crs.hpp"
-#include "gdal/quiet_gdal.hpp"
-#include "gdal/raster_file.hpp"
+#include "gdal/files/quiet_gdal.hpp"
+#include "gdal/files/raster_file.hpp"
 #include "import/rasters/raster_source.hpp"
 
 namespace itin {

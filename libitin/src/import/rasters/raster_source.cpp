@@ -19,9 +19,9 @@
 #include <itin/file_ending.hpp>
 #include <itin/raster_values.hpp>
 
-#include "gdal/block_cache_limit.hpp"
-#include "gdal/quiet_gdal.hpp"
-#include "gdal/raster_file.hpp"
+#include "gdal/files/block_cache_limit.hpp"
+#include "gdal/files/quiet_gdal.hpp"
+#include "gdal/files/raster_file.hpp"
 #include "import/rasters/raster_lattice.hpp"
 #include "import/rasters/raster_windows.hpp"
 #include "import/source/height_band.hpp"

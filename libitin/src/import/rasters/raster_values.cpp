@@ -7,9 +7,9 @@
 #include <itin/error.hpp>
 #include <itin/raster_values.hpp>
 
-#include "gdal/quiet_gdal.hpp"
-#include "gdal/raster_file.hpp"
-#include "gdal/value_band.hpp"
+#include "gdal/files/quiet_gdal.hpp"
+#include "gdal/files/raster_file.hpp"
+#include "gdal/files/value_band.hpp"
 
 namespace itin {
 

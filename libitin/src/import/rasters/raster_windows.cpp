@@ -8,8 +8,8 @@
 
 #include <itin/error.hpp>
 
-#include "gdal/drivers.hpp"
-#include "gdal/quiet_gdal.hpp"
+#include "gdal/files/drivers.hpp"
+#include "gdal/files/quiet_gdal.hpp"
 
 namespace itin {
 

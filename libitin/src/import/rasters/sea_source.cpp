@@ -18,7 +18,7 @@
 #include "import/rasters/raster_source.hpp"
 #include "import/source/source_context.hpp"
 #include "pyramid/pyramid.hpp"
-#include "triangulate/grid_window.hpp"
+#include "triangulate/region/grid_window.hpp"
 
 namespace itin {
 

@@ -9,7 +9,7 @@
 
 #include <itin/error.hpp>
 
-#include "gdal/quiet_gdal.hpp"
+#include "gdal/files/quiet_gdal.hpp"
 #include "gdal/scale_meter.hpp"
 
 namespace itin {

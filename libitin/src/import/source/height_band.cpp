@@ -9,8 +9,8 @@
 
 #include <itin/error.hpp>
 
-#include "gdal/quiet_gdal.hpp"
-#include "gdal/value_band.hpp"
+#include "gdal/files/quiet_gdal.hpp"
+#include "gdal/files/value_band.hpp"
 #include "import/source/source_context.hpp"
 
 namespace itin {

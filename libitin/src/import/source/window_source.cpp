@@ -13,9 +13,9 @@
 #include <itin/window_source.hpp>
 
 #include "gdal/crs.hpp"
-#include "gdal/drivers.hpp"
-#include "gdal/quiet_gdal.hpp"
-#include "import/source/source_layer.hpp"
+#include "gdal/files/drivers.hpp"
+#include "gdal/files/quiet_gdal.hpp"
+#include "import/source/layers/source_layer.hpp"
 
 namespace itin {
 

@@ -11,13 +11,13 @@
 #include <itin/sort_unique.hpp>
 #include <itin/triangulate.hpp>
 
-#include "features/feature_mesh.hpp"
+#include "features/mesh/feature_mesh.hpp"
 #include "features/part_vertices.hpp"
-#include "import/source/kept_features.hpp"
+#include "import/source/layers/kept_features.hpp"
 #include "import/source/source_order.hpp"
 #include "pyramid/points_on_lines.hpp"
+#include "store/codec/store_format.hpp"
 #include "store/store_file.hpp"
-#include "store/store_format.hpp"
 
 namespace itin {
 

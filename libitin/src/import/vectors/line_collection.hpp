@@ -14,16 +14,16 @@
 #include <itin/import.hpp>
 #include <itin/store.hpp>
 
-#include "features/ground_border.hpp"
-#include "features/mask_index.hpp"
+#include "features/mesh/ground_border.hpp"
+#include "features/plan/mask_index.hpp"
 #include "features/raised_theme.hpp"
 #include "import/source/imported_lines.hpp"
+#include "pyramid/points/sorted_points.hpp"
+#include "pyramid/points/source_index.hpp"
 #include "pyramid/replacing_ground.hpp"
-#include "pyramid/sorted_points.hpp"
-#include "pyramid/source_index.hpp"
 #include "pyramid/theme_lines.hpp"
+#include "store/codec/point_index.hpp"
 #include "store/feature_table.hpp"
-#include "store/point_index.hpp"
 
 namespace itin {
 

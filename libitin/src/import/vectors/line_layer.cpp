@@ -12,7 +12,7 @@
 #include <itin/file_digest.hpp>
 #include <itin/height_limit.hpp>
 
-#include "gdal/quiet_gdal.hpp"
+#include "gdal/files/quiet_gdal.hpp"
 #include "import/points/scattered_source.hpp"
 #include "import/source/findings.hpp"
 #include "import/source/middle_place.hpp"

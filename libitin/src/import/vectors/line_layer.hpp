@@ -9,8 +9,8 @@
 
 #include <itin/import.hpp>
 
+#include "import/source/layers/source_layer.hpp"
 #include "import/source/source_context.hpp"
-#include "import/source/source_layer.hpp"
 
 namespace itin {
 

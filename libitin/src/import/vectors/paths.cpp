@@ -12,8 +12,8 @@
 #include <itin/paths.hpp>
 #include <itin/plain_text.hpp>
 
-#include "gdal/quiet_gdal.hpp"
-#include "import/source/source_layer.hpp"
+#include "gdal/files/quiet_gdal.hpp"
+#include "import/source/layers/source_layer.hpp"
 #include "import/vectors/layer_crs.hpp"
 
 namespace itin {

@@ -17,12 +17,12 @@
 #include <itin/text_table.hpp>
 #include <itin/written_position.hpp>
 
-#include "gdal/archive.hpp"
-#include "gdal/drivers.hpp"
-#include "gdal/network.hpp"
-#include "gdal/quiet_gdal.hpp"
-#include "gdal/source_path.hpp"
-#include "import/source/source_layer.hpp"
+#include "gdal/files/archive.hpp"
+#include "gdal/files/drivers.hpp"
+#include "gdal/files/network.hpp"
+#include "gdal/files/quiet_gdal.hpp"
+#include "gdal/files/source_path.hpp"
+#include "import/source/layers/source_layer.hpp"
 #include "import/vectors/layer_crs.hpp"
 
 namespace itin {

@@ -1,7 +1,7 @@
 #include <itin/site_table.hpp>
 
-#include "gdal/quiet_gdal.hpp"
-#include "import/source/source_layer.hpp"
+#include "gdal/files/quiet_gdal.hpp"
+#include "import/source/layers/source_layer.hpp"
 #include "import/vectors/place_file.hpp"
 
 namespace itin {

@@ -9,8 +9,8 @@
 #include <itin/position_columns.hpp>
 #include <itin/sites.hpp>
 
-#include "gdal/quiet_gdal.hpp"
-#include "import/source/source_layer.hpp"
+#include "gdal/files/quiet_gdal.hpp"
+#include "import/source/layers/source_layer.hpp"
 #include "import/vectors/place_file.hpp"
 
 namespace itin {

@@ -13,7 +13,7 @@
 #include "workflows/dwellings/output/dwelling_map.hpp"
 #include "workflows/dwellings/output/dwelling_sheets.hpp"
 #include "workflows/dwellings/output/dwelling_tables.hpp"
-#include "workflows/zone/study_folder.hpp"
+#include "workflows/zone/output/study_folder.hpp"
 
 namespace itin::viewshed {
 

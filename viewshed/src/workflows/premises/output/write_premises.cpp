@@ -11,7 +11,7 @@
 #include "workflows/premises/output/facade_meshes.hpp"
 #include "workflows/premises/output/premises_map.hpp"
 #include "workflows/premises/output/premises_tables.hpp"
-#include "workflows/zone/study_folder.hpp"
+#include "workflows/zone/output/study_folder.hpp"
 
 namespace itin::viewshed {
 
