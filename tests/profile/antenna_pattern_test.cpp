@@ -35,13 +35,20 @@ class AntennaPatterns : public testing::Test {
   const test::TemporaryDirectory directory_;
 };
 
+std::string numbers(int count, double (*of)(int)) {
+  std::ostringstream text;
+  for (int i = 0; i < count; ++i) text << of(i) << '\n';
+  return text.str();
+}
+
 constexpr const char* kSmall =
-    "NAME Sector 65\r\nFREQUENCY 5800\r\nGAIN 15 dBi\r\nHORIZONTAL 4\r\n0 0,5\r\n90 10\r\n180 -25\r\n270 12\r\n"
+    "NAME Sector 65\r\nFREQUENCY 5800\r\nGAIN 15 dBi\r\nHORIZONTAL 4\r\n0 0,5\r\n90 10\r\n180 25\r\n270 12\r\n"
     "Vertical 4\n0 0.5\n90\t20\n180 30\n270 22\n";
 
 TEST_F(AntennaPatterns, ReadMsi) {
   const AntennaPattern pattern = read(kSmall);
   EXPECT_EQ(pattern.gain_dbi, 15);
+  EXPECT_EQ(pattern.frequency_mhz, 5800);
   EXPECT_EQ(pattern.horizontal, (AntennaPattern::Cut{{0, 0.5}, {90, 10}, {180, 25}, {270, 12}}));
   EXPECT_EQ(pattern.vertical, (AntennaPattern::Cut{{0, 0.5}, {90, 20}, {180, 30}, {270, 22}}));
   EXPECT_DOUBLE_EQ(*read(std::string("GAIN 15\n") + (kSmall + std::string(kSmall).find("HORIZONTAL"))).gain_dbi, 17.15);
@@ -49,10 +56,17 @@ TEST_F(AntennaPatterns, ReadMsi) {
 
 TEST_F(AntennaPatterns, RefuseOtherFiles) {
   EXPECT_EQ(error_of(""), "line 0: the file is empty");
-  EXPECT_EQ(error_of("NAME a\nHORIZONTAL 2\n0 0\n90 1\n"),
-            "line 4: the file is no antenna pattern: MSI has HORIZONTAL and VERTICAL, .ant has numbers");
+  EXPECT_EQ(error_of("NAME a\nHORIZONTAL 2\n0 0\n90 1\n"), "line 4: the pattern has no VERTICAL cut");
+  EXPECT_EQ(error_of("x\n"),
+            "line 1: the file is no antenna pattern: MSI has HORIZONTAL and VERTICAL, .ant has numbers");
+  EXPECT_EQ(error_of("HORIZONTAL 3\n0 0\n90 1\nVERTICAL 1\n"), "line 4: 'VERTICAL' comes after 2 of 3 angles");
+  EXPECT_EQ(error_of("HORIZONTAL 3\n0 0\n90 1\n90 2\n"), "line 4: the cut has two losses at 90 degrees");
+  EXPECT_EQ(error_of("HORIZONTAL 3\n0 15\n90 4\n180 -12\n"),
+            "line 4: from -12 to 15 dB in one cut: give losses from the gain on the axis, not gains");
   EXPECT_EQ(error_of("HORIZONTAL 3\n0 0\n90 1\n"), "line 3: the file ends after 2 of 3 angles");
   EXPECT_EQ(error_of("HORIZONTAL 1\n0 x\n"), "line 2: 'x' is no number");
+  EXPECT_EQ(error_of(numbers(360, [](int i) { return i / 10.0 - 15; })),
+            "line 360: from -15 to 20.9 dB in one cut: give losses from the gain on the axis, not gains");
   EXPECT_EQ(error_of("HORIZONTAL\n"), "line 1: a number is missing");
   EXPECT_EQ(error_of("HORIZONTAL 1\n-20 1\n"), "line 2: -20 degrees is not within 0 to 360");
   EXPECT_EQ(error_of("GAIN 3 dB\n"), "line 1: 'dB' is neither dBd nor dBi");
@@ -60,10 +74,11 @@ TEST_F(AntennaPatterns, RefuseOtherFiles) {
   EXPECT_THROW(read_antenna_pattern("/no/such/file.msi"), FileError);
 }
 
-std::string numbers(int count, double (*of)(int)) {
-  std::ostringstream text;
-  for (int i = 0; i < count; ++i) text << of(i) << '\n';
-  return text.str();
+TEST_F(AntennaPatterns, MayHaveAMinus) {
+  const AntennaPattern pattern = read("HORIZONTAL 3\n0 0.2\n90 -10\n180 -25\nVERTICAL 1\n0 0\n");
+  EXPECT_EQ(pattern.horizontal, (AntennaPattern::Cut{{0, 0.2}, {90, 10}, {180, 25}}))
+      << "a little more than on the axis";
+  EXPECT_FALSE(pattern.frequency_mhz);
 }
 
 TEST_F(AntennaPatterns, ReadAnt) {
@@ -116,6 +131,19 @@ TEST_F(AntennaPatterns, CountInBudgets) {
   query.to_antenna = {pattern, 120};  // the first end is at 210 degrees
   EXPECT_NEAR(link_budget(losses, path, course, query).to_off_axis_db, 10, 0.2);
   EXPECT_THROW(link_budget(losses, path, {10000, {300, 200}}, query), InputError);
+  query.to_antenna = {pattern};
+  for (const auto& [ghz, is_near] : {std::pair(4.0, true), {8.6, true}, {3.8, false}, {8.8, false}, {0.9, false}}) {
+    const RadioPath other{.frequency_ghz = ghz, .effective_earth_km = 8494.667};
+    if (is_near) {
+      EXPECT_NO_THROW(link_budget(losses, other, course, query)) << ghz;
+    } else {
+      EXPECT_THROW(link_budget(losses, other, course, query), InputError) << ghz;
+    }
+  }
+  const auto in_ghz = std::make_shared<AntennaPattern>(*pattern);
+  in_ghz->frequency_mhz = 5.8;
+  query.to_antenna = {in_ghz};
+  EXPECT_NO_THROW(link_budget(losses, path, course, query)) << "stated in GHz";
 }
 
 }  // namespace

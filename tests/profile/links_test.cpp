@@ -16,7 +16,7 @@
 #include <profile/link_courses.hpp>
 #include <profile/links.hpp>
 
-#include "lines/link_sharing.hpp"
+#include "lines/links/link_sharing.hpp"
 #include "support/impatient.hpp"
 #include "support/raster_file.hpp"
 #include "support/same_bits.hpp"

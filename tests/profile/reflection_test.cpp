@@ -7,7 +7,7 @@
 
 #include <profile/diffraction.hpp>
 
-#include "lines/path_cover.hpp"
+#include "lines/paths/path_cover.hpp"
 #include "published_profile.hpp"
 #include "support/seed.hpp"
 

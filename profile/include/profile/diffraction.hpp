@@ -134,9 +134,12 @@ struct AntennaPattern {
   Cut horizontal;                                      ///< clockwise from the axis
   Cut vertical;                                        ///< downwards from the axis
   std::optional<double> gain_dbi = {};                 ///< the one that the file states
+  std::optional<double> frequency_mhz = {};            ///< likewise: where the antenna was measured
+  std::string path = {};                               ///< the file
 };
 /// Reads a pattern: MSI (Planet; .msi, .pln), or that of Radio Mobile (.ant; 360, 541 or 720 numbers). Gains without a
-/// unit are dBd, as MSI has it. Throws FileError, and InputError with the line for what is neither.
+/// unit are dBd, as MSI has it. Losses may all have a minus. Throws FileError, and InputError with the line for what is
+/// neither.
 AntennaPattern read_antenna_pattern(const std::string& path);
 
 /// An antenna with a pattern, and where its axis points.
@@ -162,6 +165,7 @@ struct BudgetQuery {
   std::optional<double> geoclimatic_factor = {};     ///< K of P.530-17; nothing: by the gradient
   std::optional<double> refractivity_gradient = {};  ///< dN1 of P.453, N-units per km, negative; nothing: no multipath
 
+  /// Patterns that were measured far from the link's frequency are refused.
   AimedAntenna from_antenna = {}, to_antenna = {};
 
   bool asks() const { return power_dbm || eirp_dbm; }

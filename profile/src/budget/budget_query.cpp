@@ -59,7 +59,7 @@ void require_patterns(const BudgetQuery& query) {
     for (const auto& [aim, value] :
          {std::pair("antenna_azimuth", antenna->azimuth_deg), {"antenna_tilt", antenna->tilt_deg}}) {
       if (!value) continue;
-      if (!antenna->pattern) refuse(aim, fmt::format(" of that end needs `{}`, its pattern", name));
+      if (!antenna->pattern) refuse(aim, fmt::format(" needs `{}`, the pattern of that end's antenna", name));
       if (!std::isfinite(*value)) refuse(aim, ": give a finite number");
     }
     if (const auto tilt = antenna->tilt_deg; tilt && std::abs(*tilt) > 90)

@@ -17,6 +17,8 @@ namespace itin::profile {
 namespace {
 
 constexpr double kMinutesInYear = 365.25 * 24 * 60;
+/// A pattern is taken as one of the link's band up to this ratio of frequencies.
+constexpr double kNearBand = 1.5;
 
 /// A link in the units of the recommendations.
 struct BudgetPath {
@@ -40,6 +42,19 @@ double gain_of(const AimedAntenna& antenna, const std::optional<double>& given) 
   return *antenna.pattern->gain_dbi;
 }
 
+/// Refuses a pattern that was measured far from the link's frequency: it is that of another antenna.
+void require_near_band(const AimedAntenna& antenna, const RadioPath& path) {
+  if (!antenna.pattern || !antenna.pattern->frequency_mhz) return;
+  const double measured = *antenna.pattern->frequency_mhz, used = 1000 * path.frequency_ghz;
+  const auto is_near = [&](double mhz) { return mhz > used / kNearBand && mhz < used * kNearBand; };
+  // Some files state GHz without saying so.
+  if (is_near(measured) || is_near(1000 * measured)) return;
+  throw InputError(
+      fmt::format("{}: the pattern is one at {:g} MHz, and the radio works at {:g} MHz; name the pattern "
+                  "of that band",
+                  antenna.pattern->path, measured, used));
+}
+
 /// What an antenna loses towards the other end, which is at this azimuth and `rise_m` higher.
 double off_axis_of(const AimedAntenna& antenna, const std::optional<double>& azimuth_deg, double rise_m,
                    const BudgetCourse& course, const RadioPath& path) {
@@ -54,6 +69,8 @@ double off_axis_of(const AimedAntenna& antenna, const std::optional<double>& azi
 }
 
 void add_antennas(const BudgetQuery& query, const BudgetCourse& course, const RadioPath& path, LinkBudget& budget) {
+  require_near_band(query.from_antenna, path);
+  require_near_band(query.to_antenna, path);
   const double rise = course.antennas.to_m - course.antennas.from_m;
   const auto back = course.azimuth_deg ? std::optional(*course.azimuth_deg + 180) : std::nullopt;
   if (query.power_dbm) budget.from_gain_dbi = gain_of(query.from_antenna, query.from_gain_dbi);

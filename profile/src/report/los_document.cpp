@@ -5,7 +5,7 @@
 #include <profile/documents.hpp>
 #include <profile/fresnel.hpp>
 
-#include "lines/path_cover.hpp"
+#include "lines/paths/path_cover.hpp"
 #include "report/budget_document.hpp"
 
 namespace itin::profile {

@@ -7,7 +7,7 @@
 #include <profile/profile_text.hpp>
 
 #include "report/formats.hpp"
-#include "report/path_tables.hpp"
+#include "report/tables/path_tables.hpp"
 
 namespace itin::profile {
 

@@ -4,14 +4,14 @@
 
 #include <fmt/format.h>
 
-#include "report/fade.hpp"
+#include "report/charts/fade.hpp"
+#include "report/charts/location_figure.hpp"
+#include "report/charts/page.hpp"
+#include "report/charts/sight_chart.hpp"
+#include "report/charts/trade_off_chart.hpp"
 #include "report/formats.hpp"
-#include "report/location_figure.hpp"
-#include "report/page.hpp"
-#include "report/path_tables.hpp"
-#include "report/sight_chart.hpp"
-#include "report/tables.hpp"
-#include "report/trade_off_chart.hpp"
+#include "report/tables/path_tables.hpp"
+#include "report/tables/tables.hpp"
 
 namespace itin::profile {
 

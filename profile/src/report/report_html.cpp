@@ -8,11 +8,11 @@
 #include <profile/map_sheet.hpp>
 #include <profile/sight_svg.hpp>
 
-#include "report/fade.hpp"
+#include "report/charts/fade.hpp"
+#include "report/charts/trade_off_chart.hpp"
 #include "report/formats.hpp"
-#include "report/path_tables.hpp"
-#include "report/tables.hpp"
-#include "report/trade_off_chart.hpp"
+#include "report/tables/path_tables.hpp"
+#include "report/tables/tables.hpp"
 
 namespace itin::profile {
 

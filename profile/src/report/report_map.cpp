@@ -17,7 +17,7 @@
 
 #include "report/formats.hpp"
 #include "report/kml.hpp"
-#include "report/tables.hpp"
+#include "report/tables/tables.hpp"
 
 namespace itin::profile {
 

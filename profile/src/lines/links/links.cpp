@@ -15,7 +15,7 @@
 #include <profile/profile.hpp>
 
 #include "lines/findings.hpp"
-#include "lines/link_sharing.hpp"
+#include "lines/links/link_sharing.hpp"
 #include "lines/losses.hpp"
 
 namespace itin::profile {

@@ -1,4 +1,4 @@
-#include "report/budget_columns.hpp"
+#include "report/links/budget_columns.hpp"
 
 #include <algorithm>
 #include <string>

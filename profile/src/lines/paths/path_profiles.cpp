@@ -7,7 +7,7 @@
 #include <profile/leaf_areas.hpp>
 #include <profile/path_profiles.hpp>
 
-#include "lines/foliage_on_path.hpp"
+#include "lines/paths/foliage_on_path.hpp"
 
 namespace itin::profile {
 

@@ -1,4 +1,4 @@
-#include "report/link_columns.hpp"
+#include "report/links/link_columns.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "lines/magnetic_azimuth.hpp"
-#include "report/budget_columns.hpp"
+#include "report/links/budget_columns.hpp"
 
 namespace itin::profile {
 

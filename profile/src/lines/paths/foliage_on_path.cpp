@@ -1,4 +1,4 @@
-#include "lines/foliage_on_path.hpp"
+#include "lines/paths/foliage_on_path.hpp"
 
 namespace itin::profile {
 

@@ -1,4 +1,4 @@
-#include "lines/path_cover.hpp"
+#include "lines/paths/path_cover.hpp"
 
 #include <map>
 

@@ -1,4 +1,4 @@
-#include "report/page.hpp"
+#include "report/charts/page.hpp"
 
 #include <algorithm>
 #include <utility>

@@ -1,7 +1,7 @@
 // The table of a link budget.
 #pragma once
 
-#include "report/tables.hpp"
+#include "report/tables/tables.hpp"
 
 namespace itin::profile {
 

@@ -1,4 +1,4 @@
-#include "report/location_figure.hpp"
+#include "report/charts/location_figure.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@
 
 #include <itin/counted.hpp>
 
-#include "report/chart_frame.hpp"
+#include "report/charts/chart_frame.hpp"
 #include "sheet/map_frame.hpp"
 #include "sheet/paper.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "report/link_columns.hpp"
+#include "report/links/link_columns.hpp"
 
 namespace itin::profile {
 

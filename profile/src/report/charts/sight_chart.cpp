@@ -1,4 +1,4 @@
-#include "report/sight_chart.hpp"
+#include "report/charts/sight_chart.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,8 +12,8 @@
 #include <profile/sight_svg.hpp>
 
 #include "drawing/theme_colour.hpp"
-#include "report/fade.hpp"
-#include "report/tables.hpp"
+#include "report/charts/fade.hpp"
+#include "report/tables/tables.hpp"
 
 namespace itin::profile {
 

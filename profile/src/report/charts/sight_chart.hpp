@@ -5,7 +5,7 @@
 
 #include <profile/los.hpp>
 
-#include "report/chart_frame.hpp"
+#include "report/charts/chart_frame.hpp"
 
 namespace itin::profile {
 

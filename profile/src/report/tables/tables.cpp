@@ -1,4 +1,4 @@
-#include "report/tables.hpp"
+#include "report/tables/tables.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,8 @@
 #include <profile/radio_text.hpp>
 #include <profile/report_text.hpp>
 
-#include "report/budget_table.hpp"
-#include "report/path_tables.hpp"
+#include "report/tables/budget_table.hpp"
+#include "report/tables/path_tables.hpp"
 
 namespace itin::profile {
 

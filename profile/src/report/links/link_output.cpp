@@ -13,7 +13,7 @@
 #include <profile/links.hpp>
 
 #include "report/kml.hpp"
-#include "report/link_columns.hpp"
+#include "report/links/link_columns.hpp"
 
 namespace itin::profile {
 

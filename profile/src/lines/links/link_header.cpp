@@ -1,4 +1,4 @@
-#include "lines/link_header.hpp"
+#include "lines/links/link_header.hpp"
 
 #include <algorithm>
 #include <optional>

@@ -1,4 +1,4 @@
-#include "report/path_tables.hpp"
+#include "report/tables/path_tables.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@
 #include <profile/report_text.hpp>
 
 #include "drawing/axis.hpp"
-#include "lines/path_cover.hpp"
+#include "lines/paths/path_cover.hpp"
 
 namespace itin::profile {
 

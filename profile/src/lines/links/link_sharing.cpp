@@ -1,4 +1,4 @@
-#include "lines/link_sharing.hpp"
+#include "lines/links/link_sharing.hpp"
 
 #include <cmath>
 #include <cstdint>

@@ -1,4 +1,4 @@
-#include "report/chart_frame.hpp"
+#include "report/charts/chart_frame.hpp"
 
 namespace itin::profile {
 

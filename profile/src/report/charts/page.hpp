@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "drawing/drawing.hpp"
-#include "report/chart_frame.hpp"
-#include "report/tables.hpp"
+#include "report/charts/chart_frame.hpp"
+#include "report/tables/tables.hpp"
 
 namespace itin::profile {
 

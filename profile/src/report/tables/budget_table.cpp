@@ -1,4 +1,4 @@
-#include "report/budget_table.hpp"
+#include "report/tables/budget_table.hpp"
 
 #include <fmt/format.h>
 

@@ -1,10 +1,10 @@
-#include "report/trade_off_chart.hpp"
+#include "report/charts/trade_off_chart.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <string>
 
-#include "report/tables.hpp"
+#include "report/tables/tables.hpp"
 
 namespace itin::profile {
 

@@ -21,7 +21,7 @@
 #include <profile/links.hpp>
 #include <profile/radio_text.hpp>
 
-#include "lines/link_header.hpp"
+#include "lines/links/link_header.hpp"
 
 namespace itin::profile {
 

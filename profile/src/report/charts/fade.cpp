@@ -1,4 +1,4 @@
-#include "report/fade.hpp"
+#include "report/charts/fade.hpp"
 
 #include <fmt/format.h>
 

@@ -12,8 +12,8 @@
 #include <profile/radio_text.hpp>
 #include <profile/report_text.hpp>
 
-#include "report/link_columns.hpp"
-#include "report/page.hpp"
+#include "report/charts/page.hpp"
+#include "report/links/link_columns.hpp"
 
 namespace itin::profile {
 

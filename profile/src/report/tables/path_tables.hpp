@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "report/tables.hpp"
+#include "report/tables/tables.hpp"
 
 namespace itin::profile {
 
