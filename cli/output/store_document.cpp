@@ -1,5 +1,7 @@
 #include "output/store_document.hpp"
 
+#include <optional>
+
 #include <fmt/format.h>
 
 namespace itin::cli {
@@ -11,6 +13,12 @@ std::vector<std::uint64_t> query_vertices(const StoreMetadata& metadata) {
   std::uint64_t sum = 0;
   for (std::size_t i = counts.size(); i-- > 0;) counts[i] = sum += metadata.levels[i].vertices;
   return counts;
+}
+
+/// Tells whether a level after level 0 has right triangles about the posts of rasters.
+std::optional<bool> has_right_triangles(const StoreMetadata& metadata, std::size_t level) {
+  if (level == 0 || !metadata.right_triangle_levels) return std::nullopt;
+  return level <= static_cast<std::size_t>(*metadata.right_triangle_levels);
 }
 
 }  // namespace
@@ -57,18 +65,21 @@ Document levels_document(const StoreMetadata& metadata) {
                       {"vertices", level.vertices},
                       {"query_vertices", query[i]},
                       {"certified_error_m", error_interval(level.certified_error)}});
+    if (const auto right = has_right_triangles(metadata, i)) levels.back()["right_triangles"] = *right;
   }
   return levels;
 }
 
 std::string levels_table(const StoreMetadata& metadata) {
   const std::vector<std::uint64_t> query = query_vertices(metadata);
-  std::string table =
-      fmt::format("{:>12} {:>15} {:>19}   {}\n", "tolerance", "stored here", "read by a query", "certified error");
+  std::string table = fmt::format("{:>12} {:>15} {:>19}   {:<20} {}\n", "tolerance", "stored here", "read by a query",
+                                  "certified error", "triangles on rasters");
   for (std::size_t i = 0; i < metadata.levels.size(); ++i) {
     const LevelInfo& level = metadata.levels[i];
-    table += fmt::format("{:>10g} m {:>15} {:>19}   {:+.2f} to {:+.2f} m\n", level.tolerance, grouped(level.vertices),
-                         grouped(query[i]), level.certified_error.lo, level.certified_error.hi);
+    const std::string error = fmt::format("{:+.2f} to {:+.2f} m", level.certified_error.lo, level.certified_error.hi);
+    const auto right = has_right_triangles(metadata, i);
+    table += fmt::format("{:>10g} m {:>15} {:>19}   {}\n", level.tolerance, grouped(level.vertices), grouped(query[i]),
+                         right ? fmt::format("{:<20} {}", error, *right ? "right ones" : "any") : error);
   }
   return table;
 }

@@ -17,7 +17,8 @@ Document themes_document(const StoreMetadata& metadata);
 std::string themes_table(const StoreMetadata& metadata);
 
 /// The `levels`, finest first. A level's `vertices` are the ones stored in it, so that they sum up to the store's. Its
-/// `query_vertices` are the ones that a query at its tolerance reads: its own and those of all coarser levels.
+/// `query_vertices` are the ones that a query at its tolerance reads: its own and those of all coarser levels. Levels
+/// after level 0 tell whether their triangles about the posts of rasters are right ones; older stores do not tell.
 Document levels_document(const StoreMetadata& metadata);
 
 /// The `levels` as an aligned table.

@@ -74,6 +74,9 @@ struct StoreMetadata {
   std::optional<GridScale> scale;  ///< over the bounds; nothing where the CRS does not tell, and in older stores
   std::vector<LevelInfo> levels;   ///< level 0 (tolerance 0) first, then coarser and coarser
   int fine_levels = 1;  ///< the first level whose vertices are stored a second time, to be read by themselves
+  /// So many levels after level 0 have right triangles about the posts of rasters, and need more vertices for it than
+  /// others. Nothing in older stores.
+  std::optional<int> right_triangle_levels;
   std::vector<SourceInfo> sources;  ///< those of points first; the order knows none of import
   std::vector<ThemeInfo> themes;    ///< the themes of the terrain first, then by name
   std::vector<ThemePart> parts;     ///< the parts of raised themes, in the themes' order, then the finest first

@@ -286,6 +286,7 @@ class PyramidBuild {
     const double steps = static_cast<double>(tiles_.size() * static_cast<std::size_t>(levels_));
     std::size_t done = 0;
     writer_.set_fine_levels(fine_levels());
+    writer_.set_right_triangle_levels(posts_in_squares_.coarsest_level());
     for (int k = 0; k < levels_; ++k) {
       LevelWriter level(*index_, bounds, k, writer_);
       for (const CurveRange& tile : tiles_) {

@@ -157,6 +157,7 @@ StoreMetadata read_document(const json& j) {
     metadata.levels.push_back(level_from_json(level, metadata.grid.resolution));
   }
   metadata.fine_levels = j.at("fine_levels").get<int>();
+  if (j.contains("right_triangle_levels")) metadata.right_triangle_levels = j.at("right_triangle_levels").get<int>();
   for (const json& source : j.at("sources")) metadata.sources.push_back(source_from_json(source));
   for (const json& theme : j.at("themes")) metadata.themes.push_back(theme_from_json(theme));
   for (const json& part : j.at("parts"))
@@ -182,6 +183,7 @@ std::string metadata_to_json(const StoreMetadata& metadata) {
     j["levels"].push_back(level_to_json(level, metadata.grid.resolution));
   }
   j["fine_levels"] = metadata.fine_levels;
+  if (metadata.right_triangle_levels) j["right_triangle_levels"] = *metadata.right_triangle_levels;
   j["sources"] = ordered_json::array();
   for (const SourceInfo& source : metadata.sources) j["sources"].push_back(source_to_json(source));
   j["themes"] = ordered_json::array();
@@ -202,6 +204,8 @@ StoreMetadata metadata_from_json(const std::string& text) {
     const StoreMetadata metadata = read_document(json::parse(text));
     if (metadata.levels.empty() || metadata.levels.size() > format::kMaxLevels || !(metadata.grid.resolution > 0) ||
         metadata.fine_levels < 1 || static_cast<std::size_t>(metadata.fine_levels) > metadata.levels.size() ||
+        metadata.right_triangle_levels.value_or(0) < 0 ||
+        static_cast<std::size_t>(metadata.right_triangle_levels.value_or(0)) >= metadata.levels.size() ||
         metadata.themes.size() + metadata.parts.size() > format::kMaxThemes ||
         !std::all_of(metadata.parts.begin(), metadata.parts.end(), [&](const ThemePart& part) {
           return part.theme >= 1 && part.theme <= metadata.themes.size() && part.coarsest >= 0 &&

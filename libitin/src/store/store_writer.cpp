@@ -98,6 +98,12 @@ void StoreWriter::set_fine_levels(int levels) {
   metadata_.fine_levels = levels;
 }
 
+void StoreWriter::set_right_triangle_levels(int levels) {
+  if (levels < 0 || static_cast<std::size_t>(levels) >= metadata_.levels.size())
+    throw std::invalid_argument("not a number of levels with right triangles");
+  metadata_.right_triangle_levels = levels;
+}
+
 void StoreWriter::add_ground(const Cell& cell, std::span<const GridPoint> points,
                              std::span<const std::uint16_t> sources, std::span<const std::uint8_t> levels) {
   // The encoder takes more points, and does not check that there are as many of each.
@@ -117,6 +123,7 @@ void StoreWriter::add_ground(const EncodedLeaf& encoded) {
 void StoreWriter::take_ground(const Store& store, std::span<const Segment> outline, Progress& progress) {
   const StoreFile& file = file_of(store);
   set_fine_levels(file.metadata().fine_levels);
+  metadata_.right_triangle_levels = file.metadata().right_triangle_levels;
   metadata_.levels = file.metadata().levels;
   // The outermost vertices of the ground lie on its outline.
   for (const Segment& s : outline) metadata_.bounds.extend(extent_of(s));

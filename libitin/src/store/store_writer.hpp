@@ -62,6 +62,8 @@ class StoreWriter {
   /// Sets the first level whose vertices are stored a second time, to be read by themselves: 1 unless it is set. Goes
   /// before all leaves.
   void set_fine_levels(int levels);
+  /// Sets StoreMetadata::right_triangle_levels.
+  void set_right_triangle_levels(int levels);
   /// Adds a leaf of the ground: all vertices of the full surface in a cell, in Morton order, possibly none, each with
   /// its coarsest level. Leaves come in ascending order of cell.code, before those of levels.
   void add_ground(const Cell& cell, std::span<const GridPoint> points, std::span<const std::uint16_t> sources,

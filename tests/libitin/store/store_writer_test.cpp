@@ -161,6 +161,8 @@ TEST_F(StoreWriterTest, LeavesOutOfOrderAreRefused) {
   const std::span<const std::uint16_t> sources(&source, 1);
   EXPECT_THROW(writer.set_fine_levels(0), std::invalid_argument);
   EXPECT_THROW(writer.set_fine_levels(3), std::invalid_argument);
+  EXPECT_THROW(writer.set_right_triangle_levels(-1), std::invalid_argument);
+  EXPECT_THROW(writer.set_right_triangle_levels(2), std::invalid_argument);
   EXPECT_THROW(writer.add_ground({morton(0, 0), 5}, points, sources, {}), std::invalid_argument);
   writer.add_leaf(1, {morton(0, 0), 5}, points, sources, 0, 0);
   EXPECT_THROW(writer.set_fine_levels(1), std::invalid_argument);
