@@ -1,15 +1,51 @@
+#include <algorithm>
+#include <map>
+
 #include <fmt/format.h>
 
 #include <itin/feature_at.hpp>
+#include <itin/silent_progress.hpp>
+#include <itin/sort_unique.hpp>
 #include <itin/store.hpp>
 
 #include "features/features_near.hpp"
+#include "features/ranked_features.hpp"
 #include "store/feature_table.hpp"
 #include "store/segments/footprint_codec.hpp"
 
 namespace itin {
 
 namespace {
+
+/// The features that hold a place, or else the one that is nearest to it, by their numbers in ascending order.
+struct FeaturesAbout {
+  double metres = kBesideFootprint;
+  std::vector<std::int64_t> numbers;
+
+  void consider(std::int64_t number, double distance) {
+    if (distance == 0 && metres == 0) {
+      numbers.push_back(number);
+    } else if (distance < metres) {
+      metres = distance, numbers = {number};
+    }
+  }
+};
+
+/// Leaves one feature at each place: of several that hold it, the one whose top the surface has there.
+void leave_tops(const Store& store, std::uint16_t theme, const std::vector<Point2>& places,
+                std::vector<FeaturesAbout>& about, const Progress& progress) {
+  std::vector<std::int64_t> several;
+  for (const FeaturesAbout& features : about)
+    if (features.numbers.size() > 1) several.insert(several.end(), features.numbers.begin(), features.numbers.end());
+  sort_unique(several);
+  SilentProgress silent(progress);
+  const RankedFeatures ranked(store, theme, several, silent);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (about[i].numbers.size() < 2) continue;
+    const GridPoint at = store.metadata().grid.quantise({places[i].x, places[i].y, 0});
+    about[i].numbers = {ranked.owner({at.x, at.y}, about[i].numbers)};
+  }
+}
 
 void add_ids(const Store& store, std::uint16_t theme, std::vector<std::optional<FeatureAt>>& features) {
   FeatureTable table(store, theme);
@@ -26,12 +62,17 @@ std::string title_of(const FeatureAt& feature) {
 
 std::vector<std::optional<FeatureAt>> features_at(const Store& store, std::uint16_t theme,
                                                   const std::vector<Point2>& places, const Progress& progress) {
-  std::vector<std::optional<FeatureAt>> found(places.size());
-  std::vector<double> nearest(places.size(), kBesideFootprint);
+  std::vector<FeaturesAbout> about(places.size());
+  std::map<std::int64_t, std::string> names;
   for_each_feature_near(store, theme, places, progress,
                         [&](std::size_t i, std::int64_t number, const FootprintFeature& feature, double distance) {
-                          if (distance < nearest[i]) nearest[i] = distance, found[i] = {number, feature.name, {}};
+                          about[i].consider(number, distance);
+                          names.try_emplace(number, feature.name);
                         });
+  leave_tops(store, theme, places, about, progress);
+  std::vector<std::optional<FeatureAt>> found(places.size());
+  for (std::size_t i = 0; i < places.size(); ++i)
+    if (!about[i].numbers.empty()) found[i] = {about[i].numbers.front(), names[about[i].numbers.front()], {}};
   add_ids(store, theme, found);
   return found;
 }

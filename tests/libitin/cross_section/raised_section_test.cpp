@@ -1,4 +1,5 @@
 // Cross-sections with buildings, vegetation and walls against the window's triangles cut by the line.
+#include <array>
 #include <fstream>
 #include <map>
 #include <random>
@@ -201,6 +202,49 @@ TEST_F(RaisedSections, FeaturesAreKnownByPlace) {
   EXPECT_EQ(houses[2]->number, 0);
   EXPECT_FALSE(houses[3]);
   EXPECT_TRUE(features_at(store, 2, {{300210, 199710}}).front());
+}
+
+/// A tower stands on a podium: what is seen of them at a place is the higher of the two.
+TEST_F(RaisedSections, FeaturesThatOverlapAreKnownByTheirTops) {
+  ground(flat);
+  std::mt19937 random(test::seed());
+  const auto draw = [&](int most) { return static_cast<double>(random() % static_cast<unsigned>(most)); };
+  std::vector<LineFeature> boxes;
+  std::vector<std::array<double, 5>> sides;  // west, south, east, north, height
+  for (int i = 0; i < 12; ++i) {
+    const double west = 300105 + draw(120), south = 199605 + draw(120), height = 5 + 3 * i;
+    sides.push_back({west, south, west + 30 + draw(60), south + 30 + draw(60), height});
+  }
+  std::shuffle(sides.begin(), sides.end(), random);
+  for (const auto& [west, south, east, north, height] : sides) boxes.push_back(box(west, south, east, north, height));
+  raise(ThemeKind::Buildings, "houses", boxes);
+  const Store store(path("s.itin"));
+  std::map<std::string, double> heights;
+  for (std::size_t i = 0; i < sides.size(); ++i) heights["feature " + std::to_string(i)] = sides[i][4];
+  std::vector<Point2> places;
+  std::vector<double> expected;
+  while (places.size() < 300) {
+    const Point2 place{300100 + draw(2200) / 10, 199600 + draw(2200) / 10};
+    double highest = 0;
+    bool is_on_border = false;
+    for (const auto& [west, south, east, north, height] : sides) {
+      const double within = std::min({place.x - west, east - place.x, place.y - south, north - place.y});
+      is_on_border = is_on_border || std::abs(within) < 1.5;
+      if (within > 0) highest = std::max(highest, height);
+    }
+    if (!is_on_border) places.push_back(place), expected.push_back(highest);
+  }
+  const auto found = features_at(store, 1, places);
+  const auto height_at = [&](const Point2& p) {
+    return cross_section(store, p, {p.x + 0.5, p.y}, Detail::tolerance(0), ThemeChoice::all())
+        .breakpoints[0]
+        .position.z;
+  };
+  const double level = height_at({300050, 199650});
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    EXPECT_EQ(found[i] ? heights.at(found[i]->name) : 0, expected[i]) << i;
+    EXPECT_NEAR(height_at(places[i]) - level, expected[i], 0.02) << i;
+  }
 }
 
 TEST_F(RaisedSections, EndWhenTheyAreCancelled) {
