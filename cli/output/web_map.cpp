@@ -14,14 +14,16 @@
 
 namespace itin::cli {
 
+// Later maps use parts of the first. A rule that names what is about an element holds in the first alone, so that
+// elements of maps have classes of their own.
 const char* const kWebMapStyle =
     "figure{margin:.8rem 0}.map{display:block;width:100%;height:auto;background:#ededf2;outline:1px solid #555}"
-    ".map .cells{image-rendering:pixelated}.map text{font:600 12px system-ui,sans-serif;fill:#1e1e1e;stroke:#fff;"
+    ".map-cells{image-rendering:pixelated}.map-text{font:600 12px system-ui,sans-serif;fill:#1e1e1e;stroke:#fff;"
     "stroke-width:3px;paint-order:stroke;stroke-linejoin:round}.scale{box-sizing:border-box;border:1px solid #1e1e1e;"
     "border-top:0;text-align:center;font-size:.8rem;margin:.3rem 0 .5rem;line-height:1.1}.key{list-style:none;"
     "margin:.3rem 0;padding:0;display:flex;flex-wrap:wrap;gap:.15rem 1.3rem;font-size:.9rem}"
     ".key li{display:flex;align-items:center;gap:.4rem}.key .heading{width:100%;font-weight:600}"
-    ".key svg{width:24px;height:16px;flex:none}@media(max-width:600px){.map .roomy{display:none}}";
+    ".key svg{width:24px;height:16px;flex:none}@media(max-width:600px){.map-roomy{display:none}}";
 
 namespace {
 
@@ -55,10 +57,9 @@ class WebLabels {
     for (const SheetMark* mark : marks_) {
       if (!roomy.contains(mark)) continue;
       const bool left = is_left(*mark);
-      text += fmt::format("<text{} x=\"{}\" y=\"{}\" dx=\"{}\" dy=\"4\"{}>{}</text>\n",
-                          all.contains(mark) ? "" : " class=\"roomy\"", web_percent(across(*mark)),
-                          web_percent(down(*mark)), left ? -kBeside : kBeside, left ? " text-anchor=\"end\"" : "",
-                          escaped_markup(mark->label));
+      text += fmt::format("<text class=\"map-text{}\" x=\"{}\" y=\"{}\" dx=\"{}\" dy=\"4\"{}>{}</text>\n",
+                          all.contains(mark) ? "" : " map-roomy", web_percent(across(*mark)), web_percent(down(*mark)),
+                          left ? -kBeside : kBeside, left ? " text-anchor=\"end\"" : "", escaped_markup(mark->label));
     }
     return text;
   }
@@ -107,7 +108,7 @@ std::string scale_bar(const Box& frame) {
 
 constexpr const char* kNorthArrow =
     "<svg x=\"100%\" overflow=\"visible\"><circle cx=\"-26\" cy=\"28\" r=\"20\" fill=\"#fff\" fill-opacity=\".8\"/>"
-    "<path d=\"M-26 20l8 22-8-6-8 6z\" fill=\"#1e1e1e\"/><text x=\"-26\" y=\"18\" "
+    "<path d=\"M-26 20l8 22-8-6-8 6z\" fill=\"#1e1e1e\"/><text class=\"map-text\" x=\"-26\" y=\"18\" "
     "text-anchor=\"middle\">N</text></svg>\n";
 
 }  // namespace
