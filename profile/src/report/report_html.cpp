@@ -33,7 +33,7 @@ std::string image(const char* what, const std::string& bytes) {
 }
 
 std::string map_image(const MapSheet& map) {
-  return fmt::format("<img class=\"map\" alt=\"Map of where the line runs\" src=\"data:image/png;base64,{}\">\n",
+  return fmt::format("<img alt=\"Map of where the line runs\" src=\"data:image/png;base64,{}\">\n",
                      base64(draw_map_png(map, kMapPixels)));
 }
 
