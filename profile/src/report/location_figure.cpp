@@ -19,7 +19,7 @@ namespace itin::profile {
 namespace {
 
 constexpr double kTitle = 30, kBeside = 14, kReferences = 24, kLine = 10;  ///< points
-constexpr double kSample = 15, kSampleHeight = 6, kBetween = 10;           ///< of the legend, points
+constexpr double kSample = 15, kSampleHeight = 6, kBetween = 10;           ///< the legend's lengths, points
 const Lettering kCaption{7.5, kReportGrey, Align::kLeft, false, 0};
 
 /// The rows of a legend without its headings, beside each other as far as there is room.
