@@ -190,6 +190,15 @@ TEST(MultipathFading, ShallowFadesAgreeWithAnotherImplementation) {
   EXPECT_NEAR(multipath_exceeded(0.8, 15), 0.025338919879691613, 1e-9);
 }
 
+/// P.530-17 section 2.3.4, steps 1 and 2, by hand.
+TEST(MultipathFading, TheYearIsBetterThanTheWorstMonthByABoundedAmount) {
+  EXPECT_NEAR(year_of_month({18, 5.1, 200, 10}, 50), std::pow(10, -1.08), 1e-12) << "10.8 dB at most";
+  const MultipathPath path{7.5, 34, 2.9, 210};
+  const double turn = std::pow(std::cos(89.6 * std::acos(-1.0) / 180), 0.7);
+  EXPECT_NEAR(year_of_month(path, 44.8) / year_of_month(path, 45.2), std::pow((1.1 + turn) / (1.1 - turn), 0.56), 1e-9)
+      << "the sign changes at 45 degrees";
+}
+
 TEST(MultipathFading, DeepAndShallowFadesMeet) {
   for (const double p0 : {1e-6, 0.02, 3.0, 80.0})
     for (const double part : {1.0, 0.1}) {
