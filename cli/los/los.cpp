@@ -142,12 +142,9 @@ class LosVerb final : public Verb {
     return {reports_.title(link.id), people_.facts(), link.from_name, link.to_name, reports_.table_spacing_m()};
   }
 
-  void add_map(const Store& store, const LosHeader& header, std::span<const profile::Link> others, LosCase& one,
-               Progress& progress) const {
-    viewshed::LocationOptions options{.others = others, .themes = line_.themes()};
-    if (!header.from_name.empty()) options.from_name = header.from_name;
-    if (!header.to_name.empty()) options.to_name = header.to_name;
-    one.report.location = viewshed::location_map(store, one.report, options, progress);
+  void add_map(const Store& store, std::span<const profile::Link> others, LosCase& one, Progress& progress) const {
+    one.report.location =
+        viewshed::location_map(store, one.report, {.others = others, .themes = line_.themes()}, progress);
   }
 
   LosCase run_profile() {
@@ -174,7 +171,7 @@ class LosVerb final : public Verb {
     earth_.take_body_of(store.metadata());
     query_ = query_of(earth_, radio_, budget_, people_);
     LosCase one = los_case(store, line_.run(store, query_), header());
-    if (reports_.show_location()) add_map(store, header(), {}, one, progress);
+    if (reports_.show_location()) add_map(store, {}, one, progress);
     warn_of_grid(store.metadata(), one.result.warnings);
     warn_of_date(one.result);
     return one;
@@ -208,7 +205,7 @@ class LosVerb final : public Verb {
       const LosStoreOptions::Ends ends{link.from, link.to, link.from_height, link.to_height};
       LosCase one = los_case(store, line_.run(store, profile::los_query(link, survey.query), ends), header(link));
       NoProgress quiet;  // reports are made side by side
-      if (reports_.show_location()) add_map(store, header(link), links, one, quiet);
+      if (reports_.show_location()) add_map(store, links, one, quiet);
       one.result.document["link"] = link.id;
       return one;
     };

@@ -38,8 +38,11 @@ void add_facts(profile::LosReport& report) {
 }
 
 void add_names(const LosHeader& header, profile::LosReport& report) {
-  if (!header.from_name.empty()) report.from_lines.insert(report.from_lines.begin(), header.from_name);
-  if (!header.to_name.empty()) report.to_lines.insert(report.to_lines.begin(), header.to_name);
+  const auto add = [](const std::string& name, std::string& of, std::vector<std::string>& lines) {
+    if (!name.empty()) of = name, lines.insert(lines.begin(), name);
+  };
+  add(header.from_name, report.from_name, report.from_lines);
+  add(header.to_name, report.to_name, report.to_lines);
 }
 
 void add_names(const LosHeader& header, Document& document) {

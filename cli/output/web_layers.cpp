@@ -74,7 +74,7 @@ class WebLayer {
     const bool ground = picture_ == WebPicture::kGround;
     return fmt::format(
         "<image{} x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" preserveAspectRatio=\"none\" href=\"{}\"/>\n",
-        ground ? "" : " class=\"cells\"", web_percent(across(box.xmin)), web_percent(down(box.ymax)),
+        ground ? "" : " class=\"map-cells\"", web_percent(across(box.xmin)), web_percent(down(box.ymax)),
         web_percent(across(box.xmax) - across(box.xmin)), web_percent(down(box.ymin) - down(box.ymax)),
         ground ? opaque_picture(cells) : clear_picture(cells));
   }

@@ -1,7 +1,8 @@
 #include "output/web_map.hpp"
 
 #include <algorithm>
-#include <set>
+#include <map>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -14,14 +15,16 @@
 
 namespace itin::cli {
 
+// Later maps use parts of the first. A rule that names what is about an element holds in the first alone, so that
+// elements of maps have classes of their own.
 const char* const kWebMapStyle =
     "figure{margin:.8rem 0}.map{display:block;width:100%;height:auto;background:#ededf2;outline:1px solid #555}"
-    ".map .cells{image-rendering:pixelated}.map text{font:600 12px system-ui,sans-serif;fill:#1e1e1e;stroke:#fff;"
+    ".map-cells{image-rendering:pixelated}.map-text{font:600 12px system-ui,sans-serif;fill:#1e1e1e;stroke:#fff;"
     "stroke-width:3px;paint-order:stroke;stroke-linejoin:round}.scale{box-sizing:border-box;border:1px solid #1e1e1e;"
     "border-top:0;text-align:center;font-size:.8rem;margin:.3rem 0 .5rem;line-height:1.1}.key{list-style:none;"
     "margin:.3rem 0;padding:0;display:flex;flex-wrap:wrap;gap:.15rem 1.3rem;font-size:.9rem}"
     ".key li{display:flex;align-items:center;gap:.4rem}.key .heading{width:100%;font-weight:600}"
-    ".key svg{width:24px;height:16px;flex:none}@media(max-width:600px){.map .roomy{display:none}}";
+    ".key svg{width:24px;height:16px;flex:none}@media(max-width:600px){.map-roomy{display:none}}";
 
 namespace {
 
@@ -39,24 +42,31 @@ class WebLabels {
     for (std::size_t i = layers.size(); i-- > 0;)
       if (const auto* some = std::get_if<profile::SheetMarks>(&layers[i]))
         for (const SheetMark& mark : some->marks) marks_.push_back(&mark);
+    on_page_ = that_fit(kPageWidth, [&](const SheetMark& mark) {
+      const bool left = across(mark) > 0.7;
+      return std::vector{left ? kLeft : kRight, left ? kRight : kLeft};
+    });
+    on_phone_ = that_fit(kPhoneWidth, [&](const SheetMark& mark) {
+      const auto on_page = on_page_.find(&mark);
+      return on_page == on_page_.end() ? std::vector<Side>() : std::vector{on_page->second};
+    });
   }
 
   /// A phrase about names that have no room even on a page; empty where all names have room.
   std::string left_out() const {
     const auto names = static_cast<std::size_t>(
         std::count_if(marks_.begin(), marks_.end(), [](const SheetMark* mark) { return !mark->label.empty(); }));
-    const std::size_t drawn = that_fit(kPageWidth).size();
-    return drawn < names ? left_out_text(names - drawn, names) : "";
+    return on_page_.size() < names ? left_out_text(names - on_page_.size(), names) : "";
   }
 
   std::string svg() const {
-    const std::set<const SheetMark*> roomy = that_fit(kPageWidth), all = that_fit(kPhoneWidth);
     std::string text;
     for (const SheetMark* mark : marks_) {
-      if (!roomy.contains(mark)) continue;
-      const bool left = is_left(*mark);
-      text += fmt::format("<text{} x=\"{}\" y=\"{}\" dx=\"{}\" dy=\"4\"{}>{}</text>\n",
-                          all.contains(mark) ? "" : " class=\"roomy\"", web_percent(across(*mark)),
+      const auto on_page = on_page_.find(mark);
+      if (on_page == on_page_.end()) continue;
+      const bool left = on_page->second == kLeft;
+      text += fmt::format("<text class=\"map-text{}\" x=\"{}\" y=\"{}\" dx=\"{}\" dy=\"4\"{}>{}</text>\n",
+                          on_phone_.contains(mark) ? "" : " map-roomy", web_percent(across(*mark)),
                           web_percent(down(*mark)), left ? -kBeside : kBeside, left ? " text-anchor=\"end\"" : "",
                           escaped_markup(mark->label));
     }
@@ -64,11 +74,16 @@ class WebLabels {
   }
 
  private:
+  enum Side { kLeft, kRight };
+  using Sides = std::map<const SheetMark*, Side>;
+
   double across(const SheetMark& mark) const { return (mark.at.x - frame_.xmin) / frame_.width(); }
   double down(const SheetMark& mark) const { return (frame_.ymax - mark.at.y) / frame_.height(); }
-  bool is_left(const SheetMark& mark) const { return across(mark) > 0.7; }
 
-  std::set<const SheetMark*> that_fit(double width) const {
+  /// Returns the sides of the names that have room at this width. A name takes the first of `sides_of(mark)` where it
+  /// has.
+  template <class SidesOf>
+  Sides that_fit(double width, const SidesOf& sides_of) const {
     const double height = width * frame_.height() / frame_.width();
     const auto at = [&](const SheetMark& mark) { return Point2{across(mark) * width, down(mark) * height}; };
     LabelPlaces places;
@@ -76,21 +91,26 @@ class WebLabels {
       const Point2 p = at(*mark);
       places.take({p.x - kBeside / 2, p.y - kBeside / 2, p.x + kBeside / 2, p.y + kBeside / 2});
     }
-    std::set<const SheetMark*> fit;
+    Sides fit;
     for (const SheetMark* mark : marks_) {
+      if (mark->label.empty()) continue;
       const Point2 p = at(*mark);
       const double length = kLetterWidth * static_cast<double>(mark->label.size());
-      const double from = is_left(*mark) ? p.x - kBeside - length : p.x + kBeside;
-      const Box box{from, p.y - kLetterHeight / 2, from + length, p.y + kLetterHeight / 2};
-      if (mark->label.empty() || !places.free(box)) continue;
-      places.take(box);
-      fit.insert(mark);
+      for (const Side side : sides_of(*mark)) {
+        const double from = side == kLeft ? p.x - kBeside - length : p.x + kBeside;
+        const Box box{from, p.y - kLetterHeight / 2, from + length, p.y + kLetterHeight / 2};
+        if (from < 0 || from + length > width || !places.free(box)) continue;
+        places.take(box);
+        fit.emplace(mark, side);
+        break;
+      }
     }
     return fit;
   }
 
   Box frame_;
   std::vector<const SheetMark*> marks_;
+  Sides on_page_, on_phone_;
 };
 
 std::string key_html(const SheetKey& key) {
@@ -107,7 +127,7 @@ std::string scale_bar(const Box& frame) {
 
 constexpr const char* kNorthArrow =
     "<svg x=\"100%\" overflow=\"visible\"><circle cx=\"-26\" cy=\"28\" r=\"20\" fill=\"#fff\" fill-opacity=\".8\"/>"
-    "<path d=\"M-26 20l8 22-8-6-8 6z\" fill=\"#1e1e1e\"/><text x=\"-26\" y=\"18\" "
+    "<path d=\"M-26 20l8 22-8-6-8 6z\" fill=\"#1e1e1e\"/><text class=\"map-text\" x=\"-26\" y=\"18\" "
     "text-anchor=\"middle\">N</text></svg>\n";
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <itin/markup.hpp>
+#include <itin/round_length.hpp>
 #include <viewshed/site_wording.hpp>
 
 namespace itin::cli {
@@ -52,7 +53,7 @@ class CoverageCurve {
 
   std::string grid() const {
     std::string svg;
-    const double step = most_ > 0.5 ? 0.1 : most_ > 0.2 ? 0.05 : most_ > 0.05 ? 0.01 : most_ / 4;
+    const double step = most_ > 0.5 ? 0.1 : most_ > 0.2 ? 0.05 : most_ > 0.05 ? 0.01 : round_length(most_ / 4);
     for (double at = 0; at <= most_; at += step)
       svg += fmt::format(
           "<line x1=\"{0}%\" y1=\"{2:.1f}\" x2=\"{1}%\" y2=\"{2:.1f}\" stroke=\"#ddd\"/>"
@@ -63,7 +64,7 @@ class CoverageCurve {
 
   /// Draws how much each site adds, with its name while there is room for names, then with every fifth number.
   std::string steps() const {
-    constexpr std::size_t kNamed = 10;
+    constexpr std::size_t kNamed = 10, kShort = 4;
     std::string svg;
     for (std::size_t i = 1; i <= sites(); ++i) {
       svg += fmt::format(
@@ -73,7 +74,8 @@ class CoverageCurve {
           across(i), down(share(i - 1)), down(share(i)), across(i - 1));
       if (sites() > kNamed && i % 5 != 0 && i > 1) continue;
       const std::string& name = result_.place_of(result_.choice.chosen[i - 1]).name;
-      const bool at_the_edge = i == sites() && sites() <= kNamed;  // a long name ends where the page does
+      // A long name ends where the page does.
+      const bool at_the_edge = i == sites() && sites() <= kNamed && name.size() > kShort;
       svg += fmt::format("<text x=\"{:.2f}%\" y=\"{}\" text-anchor=\"{}\">{}</text>\n", at_the_edge ? 100 : across(i),
                          kHeight - kBottom + 16, at_the_edge ? "end" : "middle",
                          sites() > kNamed ? fmt::format("{}", i) : escaped_markup(name));

@@ -110,9 +110,8 @@ std::string summary(const viewshed::SitePlan& r) {
                                    : "";
   std::string cost = cost_in_words(r);
   if (!cost.empty()) cost.front() = 'T', cost = "<p>" + cost + ".</p>\n";
-  return fmt::format("<p class=\"headline\">{}: {} of a demand of {}{} ({:.1f} %){}. {}</p>\n{}{}<p>{}{}</p>\n",
-                     r.leaves_open ? "Certainly served" : "Served", amount(r.served()),
-                     amount(r.in_metric(r.inputs.total)), unit_of_demand(r), r.served_percent(), existing,
+  return fmt::format("<p class=\"headline\">{}: {}{}. {}</p>\n{}{}<p>{}{}</p>\n",
+                     r.leaves_open ? "Certainly served" : "Served", amount_served_in_words(r), existing,
                      best_possible(r), cost, left_open(r), times_surveyed(r), exchanges(r));
 }
 

@@ -33,14 +33,18 @@ std::string undecided_in_words(const viewshed::SitePlan& r) {
                      kDecidesMissingGround);
 }
 
+std::string amount_served_in_words(const viewshed::SitePlan& r) {
+  return fmt::format("{} of a demand of {}{} ({:.1f} %)", amount(r.served()), amount(r.in_metric(r.inputs.total)),
+                     unit_of_demand(r), r.served_percent());
+}
+
 std::string served_in_words(const viewshed::SitePlan& r) {
   const std::size_t chosen = r.choice.chosen.size(), existing = r.inputs.existing();
-  return fmt::format("which {}{}serve{} {} of a demand of {}{} ({:.1f} %)",
+  return fmt::format("which {}{}serve{} {}",
                      existing > 0 ? fmt::format("together with {} ", counted(existing, "existing site"))
                      : chosen > 1 ? "together "
                                   : "",
-                     certainly(r), chosen == 1 ? "s" : "", amount(r.served()), amount(r.in_metric(r.inputs.total)),
-                     unit_of_demand(r), r.served_percent());
+                     certainly(r), chosen == 1 ? "s" : "", amount_served_in_words(r));
 }
 
 std::string cost_in_words(const viewshed::SitePlan& r) {

@@ -19,7 +19,10 @@ std::string certainly(const viewshed::SitePlan& plan);
 /// Tells how much ground without data leaves open, and which options decide it.
 std::string undecided_in_words(const viewshed::SitePlan& plan);
 
-/// Tells how much of the demand the sites serve: "which together serve 57 of a demand of 129 (44.2 %)".
+/// Tells how much of the demand the sites serve: "57 of a demand of 129 (44.2 %)".
+std::string amount_served_in_words(const viewshed::SitePlan& plan);
+
+/// Tells which sites serve how much of the demand: "which together serve 57 of a demand of 129 (44.2 %)".
 std::string served_in_words(const viewshed::SitePlan& plan);
 
 /// Tells what the sites cost together, where a share or a budget was asked for, and the bound on it; else empty.

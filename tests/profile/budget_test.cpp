@@ -31,6 +31,38 @@ TEST(GasLoss, StudyGroup3SpecificAttenuation) {
   }
 }
 
+/// What crc-covlib's implementation of P.676-13 (commit bc72be0) gives for standard air, at the lines above 100 GHz:
+/// the published figures say little of these.
+TEST(GasLoss, AgreesWithAnotherImplementationUpTo1000Ghz) {
+  const struct {
+    double ghz, oxygen, water;
+  } computed[] = {{118.75, 1.33395300732, 0.614975283007},  {120, 0.886108889994, 0.62986056492},
+                  {183.31, 0.0127464731802, 28.0077201022}, {321.2, 0.0293793286998, 18.5163204522},
+                  {325.15, 0.0301280067333, 37.9637351423}, {336.2, 0.0324618908686, 9.79153086598},
+                  {368.5, 0.336178339936, 26.0964262862},   {380.2, 0.0493828221833, 299.851366155},
+                  {390.1, 0.0494691182717, 37.4645009043},  {424.76, 3.29124551125, 21.3478188797},
+                  {437.35, 0.114927985606, 61.0714966565},  {439.15, 0.10097058547, 83.1331947321},
+                  {443.02, 0.0838953772551, 113.675655386}, {448, 0.0738090435807, 352.251863216},
+                  {471, 0.0760676091736, 61.3343677584},    {474.69, 0.0859041013928, 84.4556745297},
+                  {487.25, 1.48229060932, 53.1617325866},   {488.5, 0.985857024951, 55.4099296638},
+                  {503.9, 0.0808945929335, 72.9249013747},  {547.7, 0.0753852097743, 1993.27001948},
+                  {552, 0.0761517217946, 5359.43142781},    {556.94, 0.0770787488095, 17109.6261065},
+                  {620.7, 0.0912470195612, 305.286918713},  {645.77, 0.0975893408405, 67.0666224249},
+                  {658, 0.100924657617, 69.9647880381},     {715.39, 0.975373099694, 127.505197226},
+                  {752.03, 0.156291050401, 11263.010539},   {773.84, 5.47720740343, 321.619839065},
+                  {834.15, 2.18102590514, 80.3435571642},   {841.05, 0.249804039381, 79.8900051746},
+                  {860, 0.161322405697, 83.5899871022},     {899.3, 0.163990476162, 104.862113245},
+                  {902.6, 0.164690468553, 116.121515044},   {906.2, 0.165477120833, 141.108219812},
+                  {916.17, 0.167752223823, 613.239207638},  {923.1, 0.169395884652, 180.813564688},
+                  {970.3, 0.181273852429, 969.639467137},   {987.93, 0.185868629099, 8572.03614119},
+                  {999, 0.188777107094, 796.071813204}};
+  for (const auto& e : computed) {
+    const GasLoss loss = gas_loss(e.ghz);
+    EXPECT_NEAR(loss.oxygen_db_km / e.oxygen, 1, 1e-10) << e.ghz;
+    EXPECT_NEAR(loss.water_db_km / e.water, 1, 1e-10) << e.ghz;
+  }
+}
+
 TEST(GasLoss, DependsOnTheAir) {
   EXPECT_EQ(gas_loss(23, {.water_g_m3 = 0}).water_db_km, 0);
   EXPECT_NEAR(gas_loss(23, {.water_g_m3 = 15}).water_db_km / gas_loss(23).water_db_km, 2, 0.1);
@@ -79,8 +111,8 @@ struct RainCase {
   Polarisation polarisation;
   double specific, of_0_001, of_0_01, of_0_1, of_1;
 };
-/// Computed apart, by the formulas that the implementations of P.530-18 by I. Stevanovic (eeveetza/p530) and in
-/// crc_covlib have; these programs were read, not run. ITU-Rpy takes the power of 0.8 in C0 of the logarithm, and
+/// What crc-covlib's implementation of P.530-18 (commit bc72be0) gives, with the rate given. That by I. Stevanovic
+/// (eeveetza/p530) was read, and has the same formulas. ITU-Rpy takes the power of 0.8 in C0 of the logarithm, and
 /// differs above 10 GHz.
 constexpr RainCase kRain[] = {
     {9, 18, 28, Polarisation::kVertical, 2.1762187358, 26.96027645, 13.62112105, 5.16389522, 1.46898732},
@@ -94,7 +126,7 @@ RainLoss rain_of(const RainCase& e) {
   return rain_loss({.frequency_ghz = e.ghz, .polarisation = e.polarisation, .length_km = e.km}, e.rate);
 }
 
-TEST(RainLoss, AgreesWithTheFormulasOfOtherImplementations) {
+TEST(RainLoss, AgreesWithAnotherImplementation) {
   for (const RainCase& e : kRain) {
     const RainLoss rain = rain_of(e);
     EXPECT_NEAR(rain.specific_db_km, e.specific, 1e-8) << e.km;
@@ -106,6 +138,13 @@ TEST(RainLoss, AgreesWithTheFormulasOfOtherImplementations) {
   }
   EXPECT_DOUBLE_EQ(rain_loss({.frequency_ghz = 23, .length_km = 0.3}, 28).effective_km, 2.5 * 0.3)
       << "short paths count 2.5 times at most";
+}
+
+/// The worked examples in the documentation of MATLAB's rainpl(), which has P.838-3 and P.530-17: 20 GHz over 10 km.
+TEST(RainLoss, WorkedExamplesOfRainpl) {
+  const RainPath path{.frequency_ghz = 20, .polarisation = Polarisation::kHorizontal, .length_km = 10};
+  EXPECT_NEAR(rain_loss(path, 1).exceeded_db, 1.3009, 5e-5);
+  EXPECT_NEAR(rain_loss(path, 10).exceeded_db, 8.1584, 5e-5);
 }
 
 TEST(RainLoss, OutageIsWhereTheMarginIsExceeded) {
@@ -149,6 +188,15 @@ TEST(MultipathFading, ShallowFadesAgreeWithAnotherImplementation) {
   EXPECT_NEAR(multipath_exceeded(35, 38), 0.0055471261736139, 1e-9);
   EXPECT_NEAR(multipath_exceeded(0.8, 5), 0.9740193342750447, 1e-9);
   EXPECT_NEAR(multipath_exceeded(0.8, 15), 0.025338919879691613, 1e-9);
+}
+
+/// P.530-17 section 2.3.4, steps 1 and 2, by hand.
+TEST(MultipathFading, TheYearIsBetterThanTheWorstMonthByABoundedAmount) {
+  EXPECT_NEAR(year_of_month({18, 5.1, 200, 10}, 50), std::pow(10, -1.08), 1e-12) << "10.8 dB at most";
+  const MultipathPath path{7.5, 34, 2.9, 210};
+  const double turn = std::pow(std::cos(89.6 * std::acos(-1.0) / 180), 0.7);
+  EXPECT_NEAR(year_of_month(path, 44.8) / year_of_month(path, 45.2), std::pow((1.1 + turn) / (1.1 - turn), 0.56), 1e-9)
+      << "the sign changes at 45 degrees";
 }
 
 TEST(MultipathFading, DeepAndShallowFadesMeet) {

@@ -35,9 +35,9 @@ struct FeatureAt {
 std::string title_of(const FeatureAt& feature);
 
 /// Finds for each place the feature of a raised theme (its number from 1) whose footprint holds the place or is nearest
-/// to it within a metre: footprints are moved a little when they are made to fit together. Of several that hold it, as a
-/// tower on a podium, it is the one whose top the surface has there. Cost: reads all footprints of the theme, a block of
-/// 256 at a time, about a microsecond each, and triangulates the ground under those that overlap at a place. Throws
+/// to it within a metre: footprints are moved a little when they are made to fit together. Of several that hold it, as
+/// a tower on a podium, it is the one whose top the surface has there. Cost: reads all footprints of the theme, a block
+/// of 256 at a time, about a microsecond each, and triangulates the ground under those that overlap at a place. Throws
 /// CorruptStore, Cancelled.
 std::vector<std::optional<FeatureAt>> features_at(const Store& store, std::uint16_t theme,
                                                   const std::vector<Point2>& places,

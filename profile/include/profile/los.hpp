@@ -171,6 +171,7 @@ struct LosReport : LineFindings {
   // does.
   std::string title;
   std::vector<std::pair<std::string, std::string>> facts;  ///< the input and the settings: name, value
+  std::string from_name = "A", to_name = "B";              ///< what maps call the ends
   std::vector<std::string> from_lines, to_lines;           ///< about the ends
   std::string crs_wkt;                                     ///< empty: the profile has no positions
   std::optional<double> geodesic_m;    ///< on WGS 84 or the body's own, where the ends have positions

@@ -8,6 +8,17 @@
 
 namespace itin::profile {
 
+/// The ranges, degrees, in which the axis of an antenna may be given.
+inline constexpr double kLeastAzimuth = -180, kMostAzimuth = 360, kMostTilt = 90;
+
+/// Whether an azimuth from grid north, or a tilt below the horizontal, is in its range.
+inline bool is_azimuth(double degrees) {
+  return degrees >= kLeastAzimuth && degrees <= kMostAzimuth;
+}
+inline bool is_tilt(double degrees) {
+  return degrees >= -kMostTilt && degrees <= kMostTilt;
+}
+
 /// A direction from an antenna: clockwise from the azimuth of its axis, and above the horizontal.
 struct AntennaDirection {
   double azimuth_deg = 0, elevation_deg = 0;

@@ -16,6 +16,8 @@ std::string outage_text(const Outage& outage);
 std::string availability_text(const Availability& availability);
 /// Returns "11.1 minutes a year" or "at most 5.3 minutes a year".
 std::string minutes_text(const Availability& availability);
+/// Tells that a path is too short for multipath: "none up to 5 km".
+std::string no_multipath_text();
 /// Names what the budget does not count: "rain (no rate is given); interference, ...".
 std::string not_counted_text(const LinkBudget& budget);
 

@@ -1,10 +1,10 @@
-#include <cmath>
 #include <filesystem>
 
 #include <fmt/format.h>
 
 #include <itin/error.hpp>
 #include <profile/antenna_columns.hpp>
+#include <profile/antenna_loss.hpp>
 
 namespace itin::profile {
 
@@ -18,11 +18,11 @@ AntennaColumns::AntennaColumns(SiteQuery& query)
 AimedAntenna AntennaColumns::of(const Site& site) {
   AimedAntenna antenna{nullptr, site.numbers[number_], site.numbers[number_ + 1]};
   const std::string where = fmt::format("{}: {}", path_, site.place);
-  if (antenna.tilt_deg && std::abs(*antenna.tilt_deg) > 90)
-    throw InputError(fmt::format("{}: its tilt of {:g} is beyond 90 degrees", where, *antenna.tilt_deg));
-  if (antenna.azimuth_deg && !(*antenna.azimuth_deg >= -180 && *antenna.azimuth_deg <= 360))
-    throw InputError(
-        fmt::format("{}: its azimuth of {:g} is not one from -180 to 360 degrees", where, *antenna.azimuth_deg));
+  if (antenna.tilt_deg && !is_tilt(*antenna.tilt_deg))
+    throw InputError(fmt::format("{}: its tilt of {:g} is beyond {:g} degrees", where, *antenna.tilt_deg, kMostTilt));
+  if (antenna.azimuth_deg && !is_azimuth(*antenna.azimuth_deg))
+    throw InputError(fmt::format("{}: its azimuth of {:g} is not one from {:g} to {:g} degrees", where,
+                                 *antenna.azimuth_deg, kLeastAzimuth, kMostAzimuth));
   const std::string& file = site.texts[text_];
   if (file.empty()) return antenna;
   std::shared_ptr<const AntennaPattern>& pattern = patterns_[file];

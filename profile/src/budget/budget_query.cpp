@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <itin/error.hpp>
+#include <profile/antenna_loss.hpp>
 #include <profile/diffraction.hpp>
 
 namespace itin::profile {
@@ -62,10 +63,10 @@ void require_patterns(const BudgetQuery& query) {
       if (!antenna->pattern) refuse(aim, fmt::format(" needs `{}`, the pattern of that end's antenna", name));
       if (!std::isfinite(*value)) refuse(aim, ": give a finite number");
     }
-    if (const auto tilt = antenna->tilt_deg; tilt && std::abs(*tilt) > 90)
-      refuse("antenna_tilt", fmt::format(" {:g}: give -90 to 90 degrees", *tilt));
-    if (const auto azimuth = antenna->azimuth_deg; azimuth && !(*azimuth >= -180 && *azimuth <= 360))
-      refuse("antenna_azimuth", fmt::format(" {:g}: give -180 to 360 degrees", *azimuth));
+    if (const auto tilt = antenna->tilt_deg; tilt && !is_tilt(*tilt))
+      refuse("antenna_tilt", fmt::format(" {:g}: give {:g} to {:g} degrees", *tilt, -kMostTilt, kMostTilt));
+    if (const auto azimuth = antenna->azimuth_deg; azimuth && !is_azimuth(*azimuth))
+      refuse("antenna_azimuth", fmt::format(" {:g}: give {:g} to {:g} degrees", *azimuth, kLeastAzimuth, kMostAzimuth));
   }
 }
 

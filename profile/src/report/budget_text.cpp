@@ -6,6 +6,7 @@
 
 #include <itin/counted.hpp>
 #include <profile/budget_text.hpp>
+#include <profile/multipath_fading.hpp>
 
 namespace itin::profile {
 
@@ -35,7 +36,7 @@ std::string rain_line(const LinkBudget& budget) {
 }
 
 std::string multipath_line(const LinkBudget& budget) {
-  if (budget.multipath->occurrence_percent == 0) return "multipath: none up to 5 km";
+  if (budget.multipath->occurrence_percent == 0) return "multipath: " + no_multipath_text();
   std::string line = fmt::format("multipath: occurrence {} %", significant(budget.multipath->occurrence_percent, 3));
   if (!budget.multipath_outage) return line;
   return line + fmt::format("; out for {} % of the worst month, {} of the year",
@@ -60,6 +61,10 @@ std::string availability_text(const Availability& availability) {
 std::string minutes_text(const Availability& availability) {
   return fmt::format("{}{} minutes a year", availability.at_least ? "at most " : "",
                      significant(availability.outage_minutes, 3));
+}
+
+std::string no_multipath_text() {
+  return fmt::format("none up to {:g} km", kShortestToFade);
 }
 
 std::string not_counted_text(const LinkBudget& budget) {

@@ -22,7 +22,7 @@ constexpr const char* kStyle =
     "body{font:15px/1.45 system-ui,sans-serif;color:#222;max-width:64rem;margin:2rem auto;padding:0 1rem}"
     "h1{font-size:1.6rem;margin:0 0 .3rem}h2{font-size:1.1rem;margin:1.6rem 0 .3rem}"
     "table{border-collapse:collapse}td,th{padding:.18rem .9rem .18rem 0;text-align:left;vertical-align:top;"
-    "border-bottom:1px solid #ddd}img{width:100%;height:auto}img.map{max-width:44rem}.note{color:#666;font-size:.9em}"
+    "border-bottom:1px solid #ddd}img{width:100%;height:auto}.note{color:#666;font-size:.9em}"
     ".verdict{font-size:1.1rem;font-weight:600}@media print{body{margin:0;max-width:none}h2{break-after:avoid}}";
 
 constexpr double kDrawingWidth = 842, kDrawingHeight = 420;
@@ -33,7 +33,7 @@ std::string image(const char* what, const std::string& bytes) {
 }
 
 std::string map_image(const MapSheet& map) {
-  return fmt::format("<img class=\"map\" alt=\"Map of where the line runs\" src=\"data:image/png;base64,{}\">\n",
+  return fmt::format("<img alt=\"Map of where the line runs\" src=\"data:image/png;base64,{}\">\n",
                      base64(draw_map_png(map, kMapPixels)));
 }
 

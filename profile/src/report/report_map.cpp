@@ -123,8 +123,8 @@ struct PointOfPath {
 /// The ends, the critical point, the point of reflection, and the edges of the losses.
 std::vector<PointOfPath> path_points(const LosReport& report, const Path& path) {
   const double length = report.profile.length_m, from = report.query.from_height_m, to = report.query.to_height_m;
-  std::vector<PointOfPath> points{{"from", fmt::format("A, {:g} m", from), 0, from, path.ray(0)},
-                                  {"to", fmt::format("B, {:g} m", to), length, to, path.ray(length)}};
+  std::vector<PointOfPath> points{{"from", fmt::format("{}, {:g} m", report.from_name, from), 0, from, path.ray(0)},
+                                  {"to", fmt::format("{}, {:g} m", report.to_name, to), length, to, path.ray(length)}};
   if (const auto& p = report.critical)
     points.push_back({"critical", "Critical point, " + critical_line(report), p->distance_m, {}, place_of(*p)});
   const auto add = [&](const char* what, std::string name, double distance_m, double elevation_m) {

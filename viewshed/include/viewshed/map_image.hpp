@@ -94,7 +94,6 @@ MapImage draw_perspective(const Tin& tin, const PerspectiveOptions& options);
 
 /// What a map of one line shows besides the line.
 struct LocationOptions {
-  std::string from_name = "A", to_name = "B";
   std::span<const profile::Link> others = {};  ///< neighbours, in grey; the line itself may be among them
   ThemeChoice themes = ThemeChoice::none();    ///< those of the line's surface: outlines of its buildings are drawn
 };

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include <itin/feature_style.hpp>
+#include <itin/table_columns.hpp>
 #include <viewshed/turbines.hpp>
 #include <viewshed/zone_study.hpp>
 
@@ -56,6 +57,21 @@ const char* planning_status(const Turbine& turbine);
 /// Returns the style of a layer of turbines that has the fields planning_status and farm: in colours by their status
 /// where there is a proposal, else by their farms.
 std::string turbine_style(const std::vector<Turbine>& turbines);
+
+/// Adds what a turbine is called, or how tall it is, to the columns of a table whose rows have one. `of(member)` makes
+/// a column's function of a member, or a function, of a turbine. The style of turbine_style() needs the names.
+template <class Row, class Of>
+void add_turbine_names(std::vector<TableColumn<Row>>& columns, const Of& of, int formats_of_status) {
+  columns.emplace_back("name", of(&Turbine::name), kInCsv | kInLayer);
+  columns.emplace_back("farm", of(&Turbine::farm), kInCsv | kInLayer);
+  columns.emplace_back("planning_status", of(planning_status), formats_of_status);
+}
+template <class Row, class Of>
+void add_turbine_sizes(std::vector<TableColumn<Row>>& columns, const Of& of) {
+  columns.emplace_back("hub_height_m", of(&Turbine::hub_height), kInCsv | kInLayer, "{:.2f}");
+  columns.emplace_back("rotor_diameter_m", of(&Turbine::rotor_diameter), kInCsv | kInLayer, "{:.2f}");
+  columns.emplace_back("tip_height_m", of(&Turbine::tip_height), kInCsv | kInLayer, "{:g}");
+}
 
 /// Turbines that have one colour on maps and wirelines.
 struct TurbineGroup {

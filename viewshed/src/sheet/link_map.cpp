@@ -147,7 +147,7 @@ std::shared_ptr<const profile::MapSheet> location_map(const Store& store, const 
   std::vector<MapObjects> objects{other_objects(options.others, line, surroundings(line)),
                                   line_objects({in_parts(from, to, "")}, looks.colour, kLineWidth,
                                                fmt::format("The line of sight: {}", looks.name)),
-                                  end_objects({{from, options.from_name}, {to, options.to_name}}, "Its ends")};
+                                  end_objects({{from, report.from_name}, {to, report.to_name}}, "Its ends")};
   profile::TitleBlock title;
   title.title = "Location";
   title.facts = {{"Length", profile::distance_text(report.profile.length_m, unit_of(report))}};

@@ -3,6 +3,8 @@
 #include <cctype>
 #include <filesystem>
 #include <iterator>
+#include <set>
+#include <tuple>
 
 #include <fmt/format.h>
 
@@ -102,13 +104,27 @@ std::vector<VectorLayer> link_layers(const LinkSurvey& survey, const std::vector
           layer_of_ends(lines), layer_of_obstacles(lines, survey.metadata)};
 }
 
+/// Adds the places where links end, once under each name that rows give them.
+void add_ends(const std::vector<LinkRow>& rows, Kml& kml) {
+  std::set<std::tuple<std::string, double, double, double>> added;
+  const auto add = [&](const std::string& name, const Point3& at) {
+    if (!name.empty() && added.emplace(name, at.x, at.y, at.z).second) kml.point(name, at);
+  };
+  for (const LinkRow& row : rows) {
+    const std::vector<Point3> line = line_of(row);
+    add(row.link->from_name, line.front()), add(row.link->to_name, line.back());
+  }
+}
+
 std::string links_kml(const std::string& crs_wkt, const std::string& title, const std::vector<LinkRow>& rows,
                       const std::vector<LinkColumn>& columns) {
   Kml kml(crs_wkt, title);
   for (const SightVerdict verdict : {SightVerdict::kVisible, SightVerdict::kHidden, SightVerdict::kUndecided})
     kml.style(name_of(verdict), kml_colour(class_of(verdict).colour), 3);
   kml.style("error", "ff909090", 3);
-  for (const LinkRow& row : computed(rows)) {
+  const std::vector<LinkRow> lines = computed(rows);
+  add_ends(lines, kml);
+  for (const LinkRow& row : lines) {
     Kml::Data data;
     for (const LinkColumn& column : columns) data.emplace_back(column.name, cell_text(column.cell(row), column.number));
     kml.line(row.id, verdict_of(row), line_of(row), data);

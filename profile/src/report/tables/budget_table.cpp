@@ -70,7 +70,7 @@ class BudgetRows {
   }
   void add_multipath() {
     add("Geoclimatic factor K (P.530-17)", fmt::format("{:.3g}", budget_.multipath->geoclimatic_factor));
-    if (budget_.multipath->occurrence_percent == 0) return add("Multipath", "none up to 5 km");
+    if (budget_.multipath->occurrence_percent == 0) return add("Multipath", no_multipath_text());
     add("Multipath occurrence p0", significant(budget_.multipath->occurrence_percent, 3) + " %");
     if (!budget_.multipath_outage) return;
     add("Out by multipath, of the worst month", significant(*budget_.multipath->worst_month_percent, 2) + " %");

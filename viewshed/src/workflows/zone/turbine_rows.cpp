@@ -29,9 +29,9 @@ std::vector<TurbineRow> rows_of_turbines(const Zone& zone) {
 
 std::vector<TableColumn<TurbineRow>> turbine_row_columns(const ZoneStudy& study) {
   std::vector<TableColumn<TurbineRow>> columns;
+  const auto of_row = [](auto of) { return [of](const TurbineRow& row) { return if_any(row.turbine, of); }; };
   const auto add = [&](const char* name, auto of, int formats, const char* number = "{}") {
-    columns.emplace_back(
-        name, [of](const TurbineRow& row) { return if_any(row.turbine, of); }, formats, number);
+    columns.emplace_back(name, of_row(of), formats, number);
   };
   columns.emplace_back("number", &TurbineRow::number);
   // The file's own number for a row. There is none where the turbines are not from a file.
@@ -41,9 +41,7 @@ std::vector<TableColumn<TurbineRow>> turbine_row_columns(const ZoneStudy& study)
         return row.number <= features.size() ? std::optional(features[row.number - 1]) : std::nullopt;
       },
       kInCsv);
-  add("name", &Turbine::name, kInCsv | kInLayer);
-  add("farm", &Turbine::farm, kInCsv | kInLayer);
-  add("planning_status", planning_status, kInLayer);
+  add_turbine_names(columns, of_row, kInLayer);
   add(
       "x", [](const Turbine& t) { return t.position.x; }, kInCsv, "{:.3f}");
   add(
@@ -51,9 +49,7 @@ std::vector<TableColumn<TurbineRow>> turbine_row_columns(const ZoneStudy& study)
   columns.emplace_back("ground_m",
                        of_turbine([&study](const TurbineRow& row) { return study.zone.ground_m[row.index]; }), kInCsv,
                        "{:.2f}");
-  add("hub_height_m", &Turbine::hub_height, kInCsv | kInLayer, "{:.2f}");
-  add("rotor_diameter_m", &Turbine::rotor_diameter, kInCsv | kInLayer, "{:.2f}");
-  add("tip_height_m", &Turbine::tip_height, kInCsv | kInLayer, "{:g}");
+  add_turbine_sizes(columns, of_row);
   add(
       "radius_km", [](const Turbine& t) { return t.radius / 1000; }, kInCsv | kInLayer, "{:g}");
   columns.emplace_back(

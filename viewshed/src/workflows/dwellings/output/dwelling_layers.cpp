@@ -10,14 +10,10 @@ namespace itin::viewshed {
 namespace {
 
 VectorLayer turbines_of_survey(const DwellingsSurvey& survey) {
-  const std::vector<TableColumn<Turbine>> columns{
-      {"turbine", [](const Turbine& t) { return t.number; }},
-      {"name", [](const Turbine& t) { return t.name; }},
-      {"farm", [](const Turbine& t) { return t.farm; }},
-      {"planning_status", planning_status},
-      {"hub_height_m", [](const Turbine& t) { return t.hub_height; }},
-      {"rotor_diameter_m", [](const Turbine& t) { return t.rotor_diameter; }},
-      {"tip_height_m", [](const Turbine& t) { return t.tip_height; }}};
+  const auto of_turbine = [](auto of) { return of; };
+  std::vector<TableColumn<Turbine>> columns{{"turbine", &Turbine::number}};
+  add_turbine_names(columns, of_turbine, kInLayer);
+  add_turbine_sizes(columns, of_turbine);
   const std::vector<Turbine>& turbines = survey.request.turbines.turbines;
   const auto place = [&](const Turbine& t) {
     const auto number = static_cast<std::size_t>(&t - turbines.data());

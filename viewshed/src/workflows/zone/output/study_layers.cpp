@@ -26,9 +26,10 @@ std::vector<Point3> at_zero(const std::vector<Point2>& line) {
   return points;
 }
 
-/// Returns a layer of lines in their colour, with the field `what`, and `label` for the label.
-VectorLayer layer_of_lines(const char* name, const profile::SheetLines& lines, double width_mm) {
-  const std::array<FeatureClass, 1> all{{{name, name, lines.colour}}};
+/// Returns a layer of lines in their colour, with the field `what`, and `label` for the label. Legends have `text`.
+VectorLayer layer_of_lines(const char* name, const std::string& text, const profile::SheetLines& lines,
+                           double width_mm) {
+  const std::array<FeatureClass, 1> all{{{name, text.c_str(), lines.colour}}};
   const std::vector<TableColumn<profile::SheetLine>> columns{
       {"what", [name](const profile::SheetLine&) { return name; }}, {"label", &profile::SheetLine::label}};
   return layer_of(
@@ -111,11 +112,12 @@ profile::SheetLines exclusion_outlines(const ZoneStudy& study, const Rgba& colou
 std::vector<VectorLayer> study_layers(const ZoneStudy& study, const StudyLines& lines) {
   std::vector<VectorLayer> layers{layer_of_turbines(study),
                                   layer_of_viewpoints(study),
-                                  layer_of_lines("routes", lines.routes, 0.6),
-                                  layer_of_lines("radio_links", lines.radio_links, 0.4),
-                                  layer_of_lines("exclusion", exclusion_outlines(study, lines.radio_links.colour), 0.2),
-                                  layer_of_lines("rings", lines.rings, 0.2),
-                                  layer_of_lines("study_area", lines.study_area, 0.6)};
+                                  layer_of_lines("routes", "Route", lines.routes, 0.6),
+                                  layer_of_lines("radio_links", "Radio link", lines.radio_links, 0.4),
+                                  layer_of_lines("exclusion", "Area that rotors must stay out of",
+                                                 exclusion_outlines(study, lines.radio_links.colour), 0.2),
+                                  layer_of_lines("rings", lines.rings_text, lines.rings, 0.2),
+                                  layer_of_lines("study_area", "Study area", lines.study_area, 0.6)};
   std::erase_if(layers, [](const VectorLayer& layer) { return layer.features.empty(); });
   return layers;
 }

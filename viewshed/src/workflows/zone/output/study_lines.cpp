@@ -56,13 +56,16 @@ double ring_step(double farthest) {
   return farthest <= 7500 ? 1000 : farthest <= 50000 ? 5000 : 10000;
 }
 
-void add_distances(const std::vector<Turbine>& turbines, StudyLines& lines) {
+void add_distances(const ZoneRequest& request, StudyLines& lines) {
+  const std::vector<Turbine> turbines = turbines_of_study_area(request);
   const Box box = study_area(turbines);
   double farthest = 0;
   for (const Turbine& t : turbines) farthest = std::max(farthest, t.radius);
-  lines.ring_step = ring_step(farthest);
+  const double step = ring_step(farthest);
+  lines.rings_text = fmt::format("Distance to the nearest {}turbine, every {:g} km",
+                                 has_proposal(request) ? "proposed " : "", step / 1000);
   const PlaneField to_nearest(box, [&](Point2 p) { return nearest_turbine(turbines, p); });
-  for (double at = lines.ring_step; at < farthest; at += lines.ring_step)
+  for (double at = step; at < farthest; at += step)
     to_nearest.add_lines(at, fmt::format("{:g} km", at / 1000), lines.rings);
   PlaneField(box, [&](Point2 p) { return beyond_study_area(turbines, p); }).add_lines(0, "", lines.study_area);
 }
@@ -77,7 +80,7 @@ StudyLines study_lines(const ZoneStudy& study) {
   for (const StudiedRoute& route : study.routes) lines.routes.lines.push_back({route.route.corners, route.title()});
   for (const profile::Link& link : study.request.links.links)
     lines.radio_links.lines.push_back({{link.from, link.to}, link.id});
-  add_distances(turbines_of_study_area(study.zone.request), lines);
+  add_distances(study.zone.request, lines);
   return lines;
 }
 

@@ -4,6 +4,7 @@
 //   draw(lines.rings, lines.study_area, lines.routes);
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include <profile/map_sheet.hpp>
@@ -13,8 +14,8 @@ namespace itin::viewshed {
 
 struct StudyLines {
   profile::SheetLines routes, radio_links;
-  double ring_step = 0;       ///< between rings, metres
   profile::SheetLines rings;  ///< each at one distance to the nearest turbine, or to that of a proposal
+  std::string rings_text;     ///< what legends call them: "Distance to the nearest turbine, every 5 km"
   profile::SheetLines study_area;
 };
 StudyLines study_lines(const ZoneStudy& study);

@@ -36,14 +36,11 @@ MapObjects viewpoint_objects(const std::vector<StudiedViewpoint>& viewpoints) {
 
 /// Returns the rings of distance and the study area's edge. There are no rings where all radii are shorter than the
 /// first.
-MapObjects distance_objects(const ZoneRequest& request, const StudyLines& lines) {
+MapObjects distance_objects(const StudyLines& lines) {
   MapObjects objects{{lines.rings, lines.study_area},
                      {{SheetKey::Sample::kDashes, {lines.study_area.colour}, "Study area"}}};
   if (!lines.rings.lines.empty())
-    objects.keys.push_back({SheetKey::Sample::kLine,
-                            {lines.rings.colour},
-                            fmt::format("Distance to the nearest {}turbine, every {:g} km",
-                                        has_proposal(request) ? "proposed " : "", lines.ring_step / 1000)});
+    objects.keys.push_back({SheetKey::Sample::kLine, {lines.rings.colour}, lines.rings_text});
   return objects;
 }
 
@@ -54,7 +51,7 @@ MapObjects radar_objects(const Observer& radar) {
 
 /// Returns the objects that a map of hubs, or of what else is seen of the zone, has above its classes.
 std::vector<MapObjects> objects_of(const ZoneStudy& study, const StudyLines& lines, bool of_hubs) {
-  std::vector<MapObjects> objects{distance_objects(study.zone.request, lines)};
+  std::vector<MapObjects> objects{distance_objects(lines)};
   if (!lines.routes.lines.empty())
     objects.push_back({{lines.routes}, {{SheetKey::Sample::kLine, {lines.routes.colour}, "Route"}}});
   if (!lines.radio_links.lines.empty())

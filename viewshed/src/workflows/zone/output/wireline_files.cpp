@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <tuple>
+#include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -206,14 +208,25 @@ const char* verdict_in_words(const std::optional<TurbineSight::Verdict>& verdict
   return *verdict == TurbineSight::Verdict::kVisible ? "visible" : "hidden";
 }
 
-/// Returns a row for each turbine, the nearest first.
+/// The turbines that a study is about: those proposed where there is a proposal, else all.
+std::vector<std::size_t> turbines_of_interest(const Zone& zone) {
+  std::vector<std::size_t> turbines = all_turbines(zone);
+  if (has_proposal(zone.request))
+    std::erase_if(turbines, [&](std::size_t k) { return zone.request.turbines[k].status != TurbineStatus::kProposed; });
+  return turbines;
+}
+
+/// Returns a row for each turbine: those in sight before those that are hidden, among these the proposal's, and then
+/// the nearest first.
 profile::SheetTable table_of_sights(const Zone& zone, const std::vector<TurbineSight>& sights) {
-  profile::SheetTable table{.first_column = kFirstColumn, .rest = "of turbines farther away"};
+  profile::SheetTable table{.first_column = kFirstColumn, .rest = "of turbines hidden or farther away"};
   table.rows = {{"Turbine", "Distance, km", "Bearing", "Hub", "Blade tip", "In sight", "Vertical angle"}};
-  std::vector<std::size_t> nearest = all_turbines(zone);
-  std::stable_sort(nearest.begin(), nearest.end(),
-                   [&](std::size_t a, std::size_t b) { return sights[a].distance < sights[b].distance; });
-  for (const std::size_t k : nearest) {
+  std::vector<char> others(sights.size(), true);
+  for (const std::size_t k : turbines_of_interest(zone)) others[k] = false;
+  const auto order = [&](std::size_t k) { return std::tuple(!is_shown(sights[k]), others[k], sights[k].distance); };
+  std::vector<std::size_t> turbines = all_turbines(zone);
+  std::stable_sort(turbines.begin(), turbines.end(), [&](std::size_t a, std::size_t b) { return order(a) < order(b); });
+  for (const std::size_t k : turbines) {
     const TurbineSight& s = sights[k];
     const Turbine& t = zone.request.turbines[k];
     const bool seen = s.tip == TurbineSight::Verdict::kVisible;
@@ -223,14 +236,6 @@ profile::SheetTable table_of_sights(const Zone& zone, const std::vector<TurbineS
                           seen ? fmt::format("{:.2f}°", s.vertical_deg) : ""});
   }
   return table;
-}
-
-/// The turbines that a study is about: those proposed where there is a proposal, else all.
-std::vector<std::size_t> turbines_of_interest(const Zone& zone) {
-  std::vector<std::size_t> turbines = all_turbines(zone);
-  if (has_proposal(zone.request))
-    std::erase_if(turbines, [&](std::size_t k) { return zone.request.turbines[k].status != TurbineStatus::kProposed; });
-  return turbines;
 }
 
 /// Returns the direction of a picture that is too narrow for all turbines: to the middle of those of interest or, where
