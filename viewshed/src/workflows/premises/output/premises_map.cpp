@@ -17,6 +17,8 @@ namespace {
 
 using Sample = profile::SheetKey::Sample;
 
+constexpr Rgba kOutlineOutOfReach{120, 120, 120, 255};
+
 /// The buildings of a class, in colours that leave walls to be seen.
 MapObjects buildings_of(const PremisesSurvey& survey, PremisesService service) {
   const FeatureClass& shown = class_of(service);
@@ -27,6 +29,17 @@ MapObjects buildings_of(const PremisesSurvey& survey, PremisesService service) {
   return {{buildings}, {{Sample::kPatch, {buildings.colour}, shown.text}}};
 }
 
+/// Those that no wall lines are drawn of: without outlines of their own, they would hardly stand out from the ground.
+MapObjects buildings_out_of_reach(const PremisesSurvey& survey) {
+  MapObjects buildings = buildings_of(survey, PremisesService::kOutOfReach);
+  profile::SheetLines outlines{{}, kOutlineOutOfReach, 0.25, false};
+  for (const Premises& p : survey.premises)
+    if (service_of(p) == PremisesService::kOutOfReach)
+      for (const std::vector<Point2>& ring : p.foot) outlines.lines.push_back({ring, ""});
+  if (!outlines.lines.empty()) buildings.layers.emplace_back(std::move(outlines));
+  return buildings;
+}
+
 std::vector<Point2> in_plan(const std::vector<Point3>& line) {
   std::vector<Point2> plan;
   for (const Point3& p : line) plan.push_back({p.x, p.y});
@@ -35,9 +48,11 @@ std::vector<Point2> in_plan(const std::vector<Point3>& line) {
 
 MapObjects walls_of(const PremisesSurvey& survey, WallService service) {
   profile::SheetLines lines{{}, {}, 0.6, false};
-  for (const Premises& p : survey.premises)
+  for (const Premises& p : survey.premises) {
+    if (service_of(p) == PremisesService::kOutOfReach) continue;
     for (const WallPlace& wall : p.walls)
       if (service_of(wall, survey.request.storey) == service) lines.lines.push_back({in_plan(wall.stretch), ""});
+  }
   if (lines.lines.empty()) return {};
   const FeatureClass& shown = class_of(service);
   lines.colour = shown.colour;
@@ -45,9 +60,9 @@ MapObjects walls_of(const PremisesSurvey& survey, WallService service) {
 }
 
 std::vector<MapObjects> premises_objects(const PremisesSurvey& survey) {
-  std::vector<MapObjects> objects;
-  for (const PremisesService service : {PremisesService::kOutOfReach, PremisesService::kUnserved,
-                                        PremisesService::kUndecided, PremisesService::kWall, PremisesService::kRoof})
+  std::vector<MapObjects> objects{buildings_out_of_reach(survey)};
+  for (const PremisesService service :
+       {PremisesService::kUnserved, PremisesService::kUndecided, PremisesService::kWall, PremisesService::kRoof})
     objects.push_back(buildings_of(survey, service));
   for (const WallService service :
        {WallService::kUnserved, WallService::kUndecided, WallService::kHigh, WallService::kLow})
