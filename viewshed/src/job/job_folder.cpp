@@ -139,7 +139,7 @@ double time_of_server(const std::string& job) {
     if (file < 0 || ::write(file, "\n", 1) != 1) {
       const std::string why = std::strerror(errno);
       if (file >= 0) ::close(file);
-      throw JobError(JobEnd::kTryAgain, path + ": cannot be written: " + why);
+      throw JobError(JobEnd::kTryAgain, fmt::format("{}: cannot be written: {}", path, why));
     }
     ::close(file);
     const std::optional<double> now = touched_at(path);
