@@ -29,7 +29,7 @@ MapObjects buildings_of(const PremisesSurvey& survey, PremisesService service) {
   return {{buildings}, {{Sample::kPatch, {buildings.colour}, shown.text}}};
 }
 
-/// Those that no wall lines are drawn of: without outlines of their own, they would hardly stand out from the ground.
+/// Returns the buildings beyond the radius, with outlines: no walls are drawn of them, and the ground is grey as well.
 MapObjects buildings_out_of_reach(const PremisesSurvey& survey) {
   MapObjects buildings = buildings_of(survey, PremisesService::kOutOfReach);
   profile::SheetLines outlines{{}, kOutlineOutOfReach, 0.25, false};
