@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <map>
 
 #include <fmt/format.h>
@@ -16,20 +15,6 @@
 namespace itin {
 
 namespace {
-
-/// The features that hold a place, or else the one that is nearest to it, by their numbers in ascending order.
-struct FeaturesAbout {
-  double metres = kBesideFootprint;
-  std::vector<std::int64_t> numbers;
-
-  void consider(std::int64_t number, double distance) {
-    if (distance == 0 && metres == 0) {
-      numbers.push_back(number);
-    } else if (distance < metres) {
-      metres = distance, numbers = {number};
-    }
-  }
-};
 
 /// Leaves one feature at each place: of several that hold it, the one whose top the surface has there.
 void leave_tops(const Store& store, std::uint16_t theme, const std::vector<Point2>& places,
@@ -62,7 +47,7 @@ std::string title_of(const FeatureAt& feature) {
 
 std::vector<std::optional<FeatureAt>> features_at(const Store& store, std::uint16_t theme,
                                                   const std::vector<Point2>& places, const Progress& progress) {
-  std::vector<FeaturesAbout> about(places.size());
+  std::vector<FeaturesAbout> about(places.size(), {.nearest = kBesideFootprint});
   std::map<std::int64_t, std::string> names;
   for_each_feature_near(store, theme, places, progress,
                         [&](std::size_t i, std::int64_t number, const FootprintFeature& feature, double distance) {

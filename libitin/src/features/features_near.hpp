@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include <itin/geometry.hpp>
@@ -23,6 +24,21 @@ namespace itin {
 /// Returns the distance in metres from a place to a feature's footprint on the grid, where the feature stands; 0
 /// within.
 double distance_to(const FootprintFeature& feature, Point2 place, const Grid& grid);
+
+/// The features that touch a place, or else the one that is nearest to it, in the order of their numbers.
+struct FeaturesAbout {
+  double touching = 0;                                       ///< metres; what is no farther away touches the place
+  double nearest = std::numeric_limits<double>::infinity();  ///< metres; what is no nearer at first does not count
+  std::vector<std::int64_t> numbers = {};
+
+  /// Takes a feature at this distance. Features come in the order of their numbers.
+  void consider(std::int64_t number, double metres) {
+    if (metres > touching && metres >= nearest) return;
+    if (nearest > touching) numbers.clear();
+    numbers.push_back(number);
+    nearest = std::min(nearest, metres);
+  }
+};
 
 /// Returns the numbers of places from west to east, so that a footprint is compared with few of them.
 std::vector<std::size_t> from_west(const std::vector<Point2>& places);

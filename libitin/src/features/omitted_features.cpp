@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <memory>
 
@@ -26,7 +25,7 @@ namespace {
 struct TopsAndFeatures {
   std::vector<VertexId> vertices;
   std::vector<Position> positions;
-  std::vector<std::vector<std::int64_t>> features;
+  std::vector<FeaturesAbout> features;
 };
 
 /// How near, in grid steps, a footprint's vertex is to where it stands: outlines are rounded where they are cut at each
@@ -45,15 +44,10 @@ TopsAndFeatures tops_in(const Store& store, std::uint16_t theme, const std::vect
     tops.positions.push_back({tin.vertices[v].x, tin.vertices[v].y});
     places.push_back(tin.grid.position(tin.vertices[v].x, tin.vertices[v].y));
   }
-  tops.features.resize(places.size());
-  std::vector<double> nearest(places.size(), INFINITY);
-  const double touching = kTouching * tin.grid.resolution;
+  tops.features.resize(places.size(), {.touching = kTouching * tin.grid.resolution});
   for_each_feature_near(store, theme, places, progress,
                         [&](std::size_t i, std::int64_t number, const FootprintFeature&, double metres) {
-                          if (metres > touching && metres >= nearest[i]) return;
-                          if (nearest[i] > touching) tops.features[i].clear();
-                          tops.features[i].push_back(number);
-                          nearest[i] = std::min(nearest[i], metres);
+                          tops.features[i].consider(number, metres);
                         });
   return tops;
 }
@@ -68,12 +62,12 @@ TopsOfTheme tops_of(const Store& store, std::uint16_t theme, const std::vector<s
     return std::any_of(features.begin(), features.end(), goes) && !std::all_of(features.begin(), features.end(), goes);
   };
   std::vector<std::int64_t> doubtful;
-  for (const auto& features : tops.features)
-    if (is_doubtful(features)) doubtful.insert(doubtful.end(), features.begin(), features.end());
+  for (const FeaturesAbout& about : tops.features)
+    if (is_doubtful(about.numbers)) doubtful.insert(doubtful.end(), about.numbers.begin(), about.numbers.end());
   sort_unique(doubtful);
   const RankedFeatures ranked(store, theme, doubtful, progress);
   for (std::size_t i = 0; i < tops.vertices.size(); ++i) {
-    const auto& features = tops.features[i];
+    const std::vector<std::int64_t>& features = tops.features[i].numbers;
     if (features.empty()) continue;
     const std::int64_t owner = is_doubtful(features) ? ranked.owner(tops.positions[i], features) : features.front();
     if (goes(owner)) omitted.vertices.push_back(tops.vertices[i]);
