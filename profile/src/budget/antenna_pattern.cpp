@@ -53,7 +53,6 @@ class PatternFile {
   [[noreturn]] void fail(const std::string& what) const {
     throw InputError(fmt::format("{}, line {}: {}", path_, line_, what));
   }
-  const std::string& path() const { return path_; }
   double number(std::size_t word) const {
     const auto value = word < words_.size() ? decimal(words_[word]) : std::nullopt;
     if (!value) fail(word < words_.size() ? fmt::format("'{}' is no number", words_[word]) : "a number is missing");

@@ -53,20 +53,34 @@ Paper with_panel(Paper picture, double height) {
   return picture;
 }
 
-double scale_within(const Box& frame, const MapSheet& sheet) {
+namespace {
+
+/// The scale at which the area fills the frame.
+double filling_scale(const Box& frame, const Box& area) {
   const double metre = 1000 * kPointsPerMillimetre;
-  const double least = std::max(sheet.area.width() / frame.width(), sheet.area.height() / frame.height()) * metre;
+  return std::max(area.width() / frame.width(), area.height() / frame.height()) * metre;
+}
+
+}  // namespace
+
+double usual_scale_within(const Box& frame, const Box& area) {
+  const double least = filling_scale(frame, area);
+  constexpr std::array<double, 11> kUsual{10, 12.5, 15, 20, 25, 30, 40, 50, 60, 75, 80};
+  for (double decade = 1;; decade *= 10)
+    for (const double usual : kUsual)
+      if (usual * decade >= least) return usual * decade;
+}
+
+double scale_within(const Box& frame, const MapSheet& sheet) {
   if (sheet.scale > 0) {
+    const double least = filling_scale(frame, sheet.area);
     if (sheet.scale < least * (1 - 1e-9))
       throw InputError(fmt::format("at `scale` 1:{:.0f} the study area does not fit on {}; give at least {:.0f}",
                                    sheet.scale, name_of(sheet.paper), std::ceil(least / 100) * 100),
                        "scale");
     return sheet.scale;
   }
-  constexpr std::array<double, 11> kUsual{10, 12.5, 15, 20, 25, 30, 40, 50, 60, 75, 80};
-  for (double decade = 1;; decade *= 10)
-    for (const double usual : kUsual)
-      if (usual * decade >= least) return usual * decade;
+  return usual_scale_within(frame, sheet.area);
 }
 
 Box ground_in(const Box& frame, const Box& area, double scale) {

@@ -33,6 +33,8 @@ Paper picture_of(const Box& area, int pixels, double pixels_per_point);
 /// Returns the picture with a panel of this height, if that is more than the frame's.
 Paper with_panel(Paper picture, double height);
 
+/// The largest usual scale at which a frame shows the area: 1 : 25,000 and the like.
+double usual_scale_within(const Box& frame, const Box& area);
 /// The scale at which a frame shows the sheet's area: that given, or the largest usual one. Throws InputError for a
 /// given scale at which the area does not fit.
 double scale_within(const Box& frame, const MapSheet& sheet);

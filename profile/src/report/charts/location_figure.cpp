@@ -69,9 +69,7 @@ void draw_location(Drawing& drawing, const Box& area, const MapSheet& map) {
   const double below = kReferences + kLine + legend.height();
   const Point2 corner{area.xmin + kBeside, area.ymin + kTitle};
   const Box room{corner.x, corner.y, area.xmax - kBeside, area.ymax - below};
-  MapSheet whole;
-  whole.area = ground;
-  const double scale = scale_within(room, whole), points = 1000 * kPointsPerMillimetre / scale;
+  const double scale = usual_scale_within(room, ground), points = 1000 * kPointsPerMillimetre / scale;
   paper.frame = {corner.x, corner.y, corner.x + points * ground.width(), corner.y + points * ground.height()};
   MapFrame frame(drawing, paper, ground);
   frame.draw(map);
