@@ -19,7 +19,6 @@ fi
 
 cut_out() { gdal_translate -q -srcwin "$1" "$2" "$3" "$4" "$terrain" "$5"; }  # cut_out COLUMN ROW COLUMNS ROWS OUT
 digest() { "$itin" info "$1" --digest --json | sed -n 's/.*"digest": *"\([0-9a-f]*\)".*/\1/p'; }
-quotient() { awk -v a="$1" -v b="$2" 'BEGIN { printf "%.2f", a / (b > 0 ? b : 0.01) }'; }
 
 cd "$folder"
 for side in "${sides[@]}"; do
@@ -33,5 +32,5 @@ for side in "${sides[@]}"; do
   [ "$(digest base.itin)" = "$(digest anew.itin)" ] || { echo "the two stores are not equal" >&2; exit 1; }
   echo "  adding against anew: $(ratio "the tile comes, $side" "both anew, $side") of the time," \
     "$(processor_ratio "the tile comes, $side" "both anew, $side") of the processor time," \
-    "$(quotient "${megabytes[the tile comes, $side]}" "${megabytes[both anew, $side]}") of the memory"
+    "$(memory_ratio "the tile comes, $side" "both anew, $side") of the memory"
 done

@@ -22,10 +22,11 @@ measure() {
 }
 
 # ratio A B: the time of A divided by that of B, by the clock. processor_ratio: by processor time, for a busy machine.
-ratio() { awk -v a="${seconds[$1]}" -v b="${seconds[$2]}" 'BEGIN { printf "%.2f", a / (b > 0 ? b : 0.01) }'; }
-processor_ratio() {
-  awk -v a="${processor[$1]}" -v b="${processor[$2]}" 'BEGIN { printf "%.2f", a / (b > 0 ? b : 0.01) }'
-}
+# memory_ratio: the peak memory.
+quotient() { awk -v a="$1" -v b="$2" 'BEGIN { printf "%.2f", a / (b > 0 ? b : 0.01) }'; }
+ratio() { quotient "${seconds[$1]}" "${seconds[$2]}"; }
+processor_ratio() { quotient "${processor[$1]}" "${processor[$2]}"; }
+memory_ratio() { quotient "${megabytes[$1]}" "${megabytes[$2]}"; }
 
 require_tools() {
   local tool
